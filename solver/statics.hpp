@@ -1,0 +1,62 @@
+// Static equilibrium: R(q, v = tow velocity, a = 0, t = 0) = 0 (theory 7).
+//
+// Start (elastic catenary per span, marching from a free end, straight, or a given state) -> tension-floored Newton with
+// all loads from the first iteration -> certificate: scaled residual, stability (negative pivots of the symmetric
+// tangent), least tension. A compressed column is never accepted: with negative pivots the state is perturbed sideways
+// and solved again; if it stays unstable the answer says so or the solve fails.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "assembly/assembler.hpp"
+#include "assembly/model.hpp"
+#include "assembly/state.hpp"
+#include "solver/linear/linear_solver.hpp"
+
+namespace hawser {
+
+enum class StaticStart { catenary, straight, given };
+
+struct StaticOptions {
+  StaticStart start = StaticStart::catenary;
+  LinearSolverKind linear_solver = LinearSolverKind::automatic;
+  double tolerance = 0.0;    // relative residual (theory 6.1); 0: automatic
+  int max_iterations = 200;  // factorizations, over all stages
+  int threads = 1;
+  std::function<void(const std::string&)> log;  // one line per stage; may be empty
+};
+
+/// Where and why a solve failed, and what to try (exit code 3 or 4 prints it).
+struct Failure {
+  std::string what;           // one sentence
+  std::string line;           // name of the line
+  double s = 0.0;             // m, arc length of the worst node
+  std::string cause, remedy;  // likely cause; what to try
+};
+
+struct StaticReport {
+  bool converged = false;
+  int iterations = 0;        // factorizations
+  double residual = 0.0;     // scaled, relative to the reference force (theory 6.1)
+  double residual_force = 0.0, reference_force = 0.0, roundoff_floor = 0.0;  // N
+  bool stable = false;
+  int negative_pivots = 0;   // of the symmetric tangent, neutral (floored) points not counted
+  std::string linear_solver;
+  bool modified_newton = false;  // the symmetric part was factorized
+  std::vector<std::string> stages;  // what was tried, in order
+  Failure failure;           // where !converged
+};
+
+/// Fills `state` with the equilibrium; on failure `state` is what the last stage left.
+StaticReport solve_static(const Assembler& assembler, const StaticOptions& options, State& state);
+
+/// The first guess that solve_static uses for a start (not `given`).
+State static_start(const Model& model, StaticStart start);
+
+/// Estimated relative error of each line's end tension from the mesh: the same scene on half the elements, difference
+/// divided by 2^p - 1 (p = 4; bar: 2). NaN where the coarse problem did not converge or the mesh cannot be halved.
+std::vector<double> estimate_static_error(const Scene& scene, const StaticOptions& options, const Model& model, const State& state);
+
+}  // namespace hawser
