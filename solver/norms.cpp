@@ -1,0 +1,102 @@
+#include "solver/norms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hawser {
+namespace {
+
+using ConstVec3 = Eigen::Map<const Vec3>;
+
+/// Calls f(line, node, |r part|, |r' part|, l) for every node, and for every joint with its inner unknowns as the r' part.
+template <class Function>
+void for_each_node(const Model& model, std::span<const double> x, Function f) {
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
+    const Chain& chain = model.chain(line);
+    for (int node = 0; node < chain.nodes; ++node) {
+      const double* part = &x[chain.dof(node)];
+      const double slope = chain.block == 3 ? 0.0 : ConstVec3(part + 3).norm();
+      f(line, node, ConstVec3(part).norm(), slope, model.node_length[model.lines[line].first_node + node]);
+    }
+  }
+  for (const Joint& joint : model.joints) {
+    const double slope = Eigen::Map<const Eigen::VectorXd>(&x[joint.inner], joint.inner_count()).norm();
+    f(joint.line, joint.node - model.lines[joint.line].first_node, 0.0, slope, model.node_length[joint.node]);
+  }
+}
+
+}  // namespace
+
+WorstNode worst_node(const Model& model, std::span<const double> r) {
+  WorstNode worst;
+  for_each_node(model, r, [&](int line, int node, double force, double moment, double l) {
+    const double value = std::max(force, moment / l);
+    if (value > worst.residual || !std::isfinite(value)) worst = {line, node, value, moment / l > force};
+  });
+  return worst;
+}
+
+double residual_norm(const Model& model, std::span<const double> r) {
+  double norm = 0.0;
+  for_each_node(model, r, [&](int, int, double force, double moment, double l) {
+    const double value = std::max(force, moment / l);
+    if (!(value <= norm)) norm = value;  // a NaN must win, so that nobody takes it for convergence
+  });
+  return norm;
+}
+
+IncrementSize increment_size(const Model& model, std::span<const double> d) {
+  IncrementSize size;
+  for_each_node(model, d, [&](int, int, double position, double slope, double l) {
+    if (!(position <= size.position)) size.position = position;
+    if (!(slope <= size.slope)) size.slope = slope;
+    const double scaled = std::max(position, l * slope);
+    if (!(scaled <= size.scaled)) size.scaled = scaled;
+  });
+  return size;
+}
+
+double largest_nodal_load(const Model& model) {
+  std::vector<Vec3> load(model.total_nodes(), Vec3::Zero());
+  for (const Line& line : model.lines)
+    for (int i = 0; i < line.elements; ++i) {
+      const int e = line.first_element + i;
+      const Vec3 half(0.0, 0.0, -0.5 * model.element.weight[e] * model.element.length[e]);
+      load[line.first_node + i] += half;
+      load[line.first_node + i + 1] += half;
+    }
+  for (const Body& body : model.bodies) load[body.node] += Vec3(0.0, 0.0, -body.wet_weight) + body.force(0.0);
+  for (const SpreadLoad& spread : model.spread_loads) {
+    const Line& line = model.lines[spread.line];
+    load[line.first_node + spread.element - line.first_element] += spread.share * spread.force(0.0);
+  }
+  double largest = 0.0;
+  for (const Vec3& force : load) largest = std::max(largest, force.norm());
+  return largest;
+}
+
+double reference_force(const Model& model, std::span<const double> unprojected) {
+  double largest = largest_nodal_load(model);
+  for (const Support& support : model.supports) {
+    const int node = support.node - model.lines[support.line].first_node;
+    largest = std::max(largest, ConstVec3(&unprojected[model.dof(support.line, node)]).norm());
+  }
+  return largest;
+}
+
+double roundoff_force(const Model& model, const State& state) {
+  double worst = 0.0;
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
+    const Chain& chain = model.chain(line);
+    for (int i = 0; i < model.lines[line].elements; ++i) {
+      const int e = model.lines[line].first_element + i;
+      const double l = model.element.length[e];
+      const double r = std::max(ConstVec3(&state.q[chain.dof(i)]).norm(), ConstVec3(&state.q[chain.dof(i + 1)]).norm());
+      worst = std::max(worst, model.element.EA[e] * std::max(1.0, r / l) + 12.0 * model.element.EI[e] * r / (l * l * l));
+    }
+  }
+  return 2.0 * std::numeric_limits<double>::epsilon() * worst;
+}
+
+}  // namespace hawser
