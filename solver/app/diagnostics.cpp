@@ -83,7 +83,7 @@ std::string render(const Diagnostic& d) {
 
 InputError::InputError(std::vector<Diagnostic> diagnostics) : std::runtime_error(render_all(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
-InputError::InputError(const std::string& message) : InputError(std::vector<Diagnostic>{{.message = message}}) {}
+InputError::InputError(const std::string& message) : InputError(std::vector<Diagnostic>{{Severity::error, message, {}, {}, {}, 1, {}, {}}}) {}
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 64;  // no key or name that long is a slip of the finger
