@@ -1,0 +1,72 @@
+// Pack<W>: W doubles in one SIMD register, lanes = consecutive elements. Compiler vector types; the square root alone needs
+// an intrinsic on x86, elsewhere it is a loop.
+//
+// Each kernel file instantiates only the width of its own instruction set, so the same templates never meet under two
+// sets of flags (architecture rule 5).
+#pragma once
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "assembly/small.hpp"
+
+namespace hawser {
+
+template <int W>
+struct VectorOf;
+#define HAWSER_VECTOR(W)                                                      \
+  template <>                                                                 \
+  struct VectorOf<W> {                                                        \
+    typedef double Type __attribute__((vector_size(8 * W), aligned(8)));      \
+    typedef long long MaskType __attribute__((vector_size(8 * W)));           \
+  };
+HAWSER_VECTOR(2)
+HAWSER_VECTOR(4)
+HAWSER_VECTOR(8)
+#undef HAWSER_VECTOR
+
+template <int W>
+struct Pack {
+  using Vector = typename VectorOf<W>::Type;
+  using Mask = typename VectorOf<W>::MaskType;
+  static constexpr int width = W;
+
+  Vector v;
+
+  Pack() = default;
+  HAWSER_INLINE Pack(double s) : v(s - Vector{}) {}
+  HAWSER_INLINE Pack(const Vector& x) : v(x) {}
+
+  HAWSER_INLINE static Pack load(const double* p) { return Pack(*reinterpret_cast<const Vector*>(p)); }
+  HAWSER_INLINE void store(double* p) const { *reinterpret_cast<Vector*>(p) = v; }
+
+  friend HAWSER_INLINE Pack operator+(const Pack& a, const Pack& b) { return Pack(a.v + b.v); }
+  friend HAWSER_INLINE Pack operator-(const Pack& a, const Pack& b) { return Pack(a.v - b.v); }
+  friend HAWSER_INLINE Pack operator*(const Pack& a, const Pack& b) { return Pack(a.v * b.v); }
+  friend HAWSER_INLINE Pack operator/(const Pack& a, const Pack& b) { return Pack(a.v / b.v); }
+  friend HAWSER_INLINE Pack operator-(const Pack& a) { return Pack(-a.v); }
+  friend HAWSER_INLINE Mask operator<(const Pack& a, const Pack& b) { return a.v < b.v; }
+  friend HAWSER_INLINE Mask operator>(const Pack& a, const Pack& b) { return a.v > b.v; }
+
+  friend HAWSER_INLINE Pack select(const Mask& m, const Pack& yes, const Pack& no) { return Pack(m ? yes.v : no.v); }
+  friend HAWSER_INLINE Pack maximum(const Pack& a, const Pack& b) { return Pack(a.v > b.v ? a.v : b.v); }
+  friend HAWSER_INLINE Pack minimum(const Pack& a, const Pack& b) { return Pack(a.v < b.v ? a.v : b.v); }
+  friend HAWSER_INLINE Pack magnitude(const Pack& a) { return maximum(a, -a); }
+  friend HAWSER_INLINE Pack square_root(const Pack& a) {
+#if defined(__AVX512F__)
+    if constexpr (W == 8) return Pack(Vector(_mm512_maskz_sqrt_pd(0xff, a.v)));
+#endif
+#if defined(__AVX__)
+    if constexpr (W == 4) return Pack(Vector(_mm256_sqrt_pd(a.v)));
+#endif
+#if defined(__SSE2__)
+    if constexpr (W == 2) return Pack(Vector(_mm_sqrt_pd(a.v)));
+#endif
+    Pack r = a;
+    for (int i = 0; i < W; ++i) r.v[i] = __builtin_sqrt(a.v[i]);
+    return r;
+  }
+};
+
+}  // namespace hawser

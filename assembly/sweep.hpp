@@ -1,0 +1,54 @@
+// sweep: the assembly loop over one panel of consecutive elements of a line, W elements at a time.
+//
+// A panel writes the blocks D, U, L and the residual of the nodes it owns (its elements' left nodes; the last panel also the
+// end node) directly. What its last element adds to the next panel's first node goes to a carry that is added afterwards, in
+// order: the result is the same bits for any number of threads. Blocks: assembly/block_tridiagonal.hpp.
+// Compiled once per instruction set (sweep_*.cpp); this interface holds no inline code and no library types.
+#pragma once
+
+#include "assembly/kernel.hpp"
+
+namespace hawser {
+
+inline constexpr int panel_elements = 64;
+inline constexpr int table_padding = 16;                // doubles that may be read beyond the end of every table
+inline constexpr int carry_size = 6 + 36;               // residual and block of one node
+inline constexpr int property_count = 11;               // of Properties, in the order of its members
+inline constexpr int node_property_count = 3;           // axial terms at nodes: sum of share*EA, share*damping, share*least tension
+
+struct SweepLine {
+  int elements;
+  const double *q, *v, *a;                              // the line's unknowns
+  const double* property[property_count];               // per element of the line
+  const double* node_property[node_property_count];     // per node of the line
+  Weights weights;
+  CurrentTable current;
+  double* r;                                            // the line's residual
+  double* blocks;                                       // the line's D, U, L; null: residual alone
+  double* carry;                                        // carry_size doubles a panel
+};
+
+using SweepFunction = void (*)(const SweepLine&, int panel);
+
+/// Families in this order; each with the residual alone and with the tangent.
+enum class SweepFamily { bar_dry, bar_wet, cable_dry, cable_wet, beam_dry, beam_wet };
+inline constexpr int sweep_families = 6;
+
+struct SweepTable {
+  const char* instruction_set;
+  int width;
+  SweepFunction force[sweep_families];
+  SweepFunction tangent[sweep_families];
+};
+
+namespace base {
+extern const SweepTable sweep_table;
+}
+namespace avx2 {
+extern const SweepTable sweep_table;
+}
+namespace avx512 {
+extern const SweepTable sweep_table;
+}
+
+}  // namespace hawser
