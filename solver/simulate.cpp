@@ -1,0 +1,160 @@
+#include "solver/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/norms.hpp"
+#include "solver/time/generalized_alpha.hpp"
+#include "solver/time/line_system.hpp"
+#include "solver/time/step_control.hpp"
+
+namespace hawser {
+namespace {
+
+constexpr double same_instant = 1.0e-9;  // of an interval: instants closer than this are one
+constexpr TangentFloor floored{.tension = 0.0, .use_minimum = true, .gauss_newton = true};
+
+StepOptions step_options(const SimulateOptions& options) {
+  StepOptions step;
+  step.spectral_radius = options.spectral_radius;
+  step.tolerance = options.tolerance;
+  return step;
+}
+
+/// The state of one run: everything that outlives a step.
+class Run {
+ public:
+  Run(const Assembler& assembler, const SimulateOptions& options, State& state)
+      : options_(options),
+        system_(assembler),
+        solver_(make_linear_solver(options.linear_solver)),
+        scheme_(system_, *solver_, step_options(options)),
+        control_(options.max_halvings),
+        state_(state) {
+    counters().linear_solver = solver_->name();
+    counters().smallest_step = INFINITY;
+  }
+
+  bool start();
+  bool advance(double t0, double t1);
+  SimulateReport& report() { return report_; }
+  SimulateCounters& counters() { return report_.counters; }
+
+ private:
+  void count(const StepReport& step);
+  void fail(const StepReport& step, const std::string& what);
+
+  SimulateOptions options_;
+  LineSystem system_;
+  std::unique_ptr<LinearSolver> solver_;
+  GeneralizedAlpha scheme_;
+  StepControl control_;
+  State& state_;
+  SimulateReport report_;
+};
+
+/// Consistent accelerations at t = 0.
+bool Run::start() {
+  state_.t = 0.0;
+  system_.model().align_clamps(state_);
+  const StepReport step = scheme_.start(state_);
+  count(step);
+  if (step.status != StepStatus::ok) {
+    fail(step, "no accelerations fit the start");
+  }
+  return step.status == StepStatus::ok;
+}
+
+/// One nominal step, in pieces where it must be. False where even the smallest piece fails.
+bool Run::advance(double t0, double t1) {
+  control_.begin(t0, t1);
+  while (!control_.finished()) {
+    const double h = control_.step();
+    const StepReport step = scheme_.step(state_, control_.end_time(), h, control_.subdivided() ? floored : TangentFloor{});
+    count(step);
+    if (step.status == StepStatus::ok) {
+      ++counters().steps;
+      counters().smallest_step = std::min(counters().smallest_step, h);
+      counters().largest_residual = std::max(counters().largest_residual, step.residual);
+      control_.advance(step.easy);
+    } else {
+      ++counters().rejected_steps;
+      if (!control_.halve()) {
+        fail(step, fmt::format("the time integration stopped at t = {:.6g} s: a step of {:.3g} s failed after {} halvings", state_.t, h,
+                               options_.max_halvings));
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void Run::count(const StepReport& step) {
+  counters().newton_iterations += step.iterations;
+  counters().factorizations += step.factorizations;
+  counters().residuals += step.residuals;
+  counters().modified_newton |= step.modified_newton;
+}
+
+void Run::fail(const StepReport& step, const std::string& what) {
+  const Model& model = system_.model();
+  Failure& failure = report_.failure;
+  failure.what = what;
+  for (std::size_t i = 0; i < model.lines.size(); ++i) {
+    const Chain& chain = model.chain(static_cast<int>(i));
+    if (step.worst >= chain.first_dof && step.worst < chain.first_dof + chain.dofs()) {
+      failure.line = model.lines[i].name;
+      failure.s = model.lines[i].s[(step.worst - chain.first_dof) / chain.block];
+    }
+  }
+  switch (step.status) {
+    case StepStatus::singular:
+      failure.cause = "the linear system has no usable factorization there: a part without mass, or a slack or compressed part";
+      failure.remedy = "give the line a small bending stiffness EI, or take linear_solver = \"chain\" or \"umfpack\"";
+      break;
+    case StepStatus::not_finite:
+      failure.cause = "forces overflowed there: motions far beyond the mesh, or an input of the wrong size";
+      failure.remedy = "check masses, stiffnesses and prescribed motions; take a smaller step";
+      break;
+    default:
+      failure.cause = "Newton's iteration did not converge: a slack part pulled taut, or forces that change faster than the step can follow";
+      failure.remedy = "take a smaller step or a smaller spectral_radius, give the line a small bending stiffness EI, or use shorter elements there";
+  }
+}
+
+}  // namespace
+
+SimulateReport simulate(const Assembler& assembler, const SimulateOptions& options, State& state, const Observer& observe) {
+  Run run(assembler, options, state);
+  SimulateReport& report = run.report();
+  bool going = run.start();
+  if (going && !observe(state, run.counters())) {
+    report.interrupted = true;
+  }
+  double from = 0.0;
+  for (long k = 1; going && !report.interrupted && from < options.duration; ++k) {
+    double to = static_cast<double>(k) * options.output_interval;
+    if (to > options.duration - same_instant * options.output_interval) {
+      to = options.duration;
+    }
+    const long steps = std::max(1L, static_cast<long>(std::ceil((to - from) / options.step * (1.0 - same_instant))));
+    for (long i = 0; going && i < steps; ++i) {
+      const double h = (to - from) / static_cast<double>(steps);
+      going = run.advance(from + h * static_cast<double>(i), i + 1 == steps ? to : from + h * static_cast<double>(i + 1));
+    }
+    from = to;
+    if (going && !observe(state, run.counters())) {
+      report.interrupted = true;
+    }
+  }
+  report.reached = state.t;
+  report.finished = going && !report.interrupted;
+  if (report.counters.steps == 0) {
+    report.counters.smallest_step = 0.0;
+  }
+  return report;
+}
+
+}  // namespace hawser

@@ -1,0 +1,196 @@
+#include "solver/time/generalized_alpha.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace hawser {
+namespace {
+
+// Newton converges quadratically: the residual that passes this test is usually far below it.
+constexpr double automatic_tolerance = 1.0e-8;
+
+// The floor of theory 6.1 is an estimate: a residual this close above it that no longer falls is at the floor.
+constexpr double floor_margin = 10.0;
+
+}  // namespace
+
+AlphaCoefficients::AlphaCoefficients(double spectral_radius)
+    : alpha_m((2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0)),
+      alpha_f(spectral_radius / (spectral_radius + 1.0)),
+      gamma(0.5 + alpha_f - alpha_m),
+      beta(0.25 * (1.0 + alpha_f - alpha_m) * (1.0 + alpha_f - alpha_m)) {
+  assert(spectral_radius >= 0.0 && spectral_radius <= 1.0);
+}
+
+double AlphaCoefficients::error_constant() const {
+  const double shift = alpha_m - alpha_f;
+  return (1.0 + 3.0 * shift * shift) / 12.0;
+}
+
+GeneralizedAlpha::GeneralizedAlpha(const System& system, LinearSolver& solver, const StepOptions& options)
+    : system_(system),
+      solver_(solver),
+      options_(options),
+      alpha_(options.spectral_radius),
+      tolerance_(options.tolerance > 0.0 ? options.tolerance : automatic_tolerance),
+      tangent_(system.make_tangent()),
+      auxiliary_(system.unknowns()),
+      rebased_(system.unknowns()),
+      residual_(system.unknowns()),
+      increment_(system.unknowns()),
+      condensed_(system.dofs()),
+      predicted_(system.prescribed().size()) {
+  trial_.q.resize(system.unknowns());
+  trial_.v.resize(system.unknowns());
+  trial_.a.resize(system.unknowns());
+  solver_.analyze(tangent_.chain);
+}
+
+StepReport GeneralizedAlpha::start(State& state) {
+  StepReport report;
+  trial_ = state;
+  std::fill(trial_.a.begin(), trial_.a.end(), 0.0);
+  system_.prescribe(trial_);
+  // The residual is linear in qdd: the second solve only removes the rounding of the first.
+  for (int pass = 0; pass < 2; ++pass) {
+    report.status = solve_increment({0.0, 0.0, 1.0}, {}, report);
+    if (report.status != StepStatus::ok) {
+      return report;
+    }
+    for (std::size_t i = 0; i < increment_.size(); ++i) {
+      trial_.a[i] += increment_[i];
+    }
+  }
+  state = trial_;
+  auxiliary_ = state.a;
+  rebased_ = state.a;
+  last_step_ = 0.0;
+  return report;
+}
+
+StepReport GeneralizedAlpha::step(State& state, double t, double h, const TangentFloor& floor) {
+  assert(h > 0.0);
+  const double beta_h = (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h);
+  const double gamma_h = alpha_.gamma / (alpha_.beta * h);
+  predict(state, t, h);
+  follow_prescribed(gamma_h, beta_h);
+
+  StepReport report;
+  const auto allowed = [this](const StepReport& r) { return r.modified_newton ? options_.max_modified_iterations : options_.max_iterations; };
+  const double floor_force = system_.roundoff_floor(state);
+  const double wanted_length = tolerance_ * system_.reference_length();
+  double previous = INFINITY;
+  while (report.iterations < allowed(report)) {
+    report.status = solve_increment({1.0, gamma_h, beta_h}, floor, report);
+    if (report.status != StepStatus::ok) {
+      return report;
+    }
+    const double factor = system_.step_factor(increment_);
+    for (std::size_t i = 0; i < increment_.size(); ++i) {
+      const double d = factor * increment_[i];
+      trial_.q[i] += d;
+      trial_.v[i] += gamma_h * d;
+      trial_.a[i] += beta_h * d;
+    }
+    const auto [force, reference] = measure(report);
+    if (!std::isfinite(force)) {
+      report.status = StepStatus::not_finite;
+      return report;
+    }
+    const bool small = force <= std::max(tolerance_ * reference, floor_force) && system_.scaled_increment(increment_) <= wanted_length;
+    const bool at_floor = force <= floor_margin * floor_force && force > 0.5 * previous;
+    if (factor == 1.0 && (small || at_floor)) {
+      report.easy = report.iterations <= allowed(report) / 2;
+      accept(state, h);
+      return report;
+    }
+    previous = force;
+  }
+  report.status = StepStatus::not_converged;
+  return report;
+}
+
+double GeneralizedAlpha::local_error() {
+  const double scale = alpha_.error_constant() * last_step_ * last_step_;
+  for (std::size_t i = 0; i < increment_.size(); ++i) {
+    increment_[i] = scale * (auxiliary_[i] - rebased_[i]);
+  }
+  return system_.scaled_increment(increment_);
+}
+
+/// The trial state with zero acceleration at the new time (theory 6), and a_n moved to the new step.
+void GeneralizedAlpha::predict(const State& state, double t, double h) {
+  const double ratio = last_step_ > 0.0 ? h / last_step_ : 1.0;
+  trial_.t = t;
+  for (std::size_t i = 0; i < rebased_.size(); ++i) {
+    const double a = state.a[i] + ratio * (auxiliary_[i] - state.a[i]);
+    const double a_new = (alpha_.alpha_f * state.a[i] - alpha_.alpha_m * a) / (1.0 - alpha_.alpha_m);
+    rebased_[i] = a;
+    trial_.q[i] = state.q[i] + h * (state.v[i] + h * ((0.5 - alpha_.beta) * a + alpha_.beta * a_new));
+    trial_.v[i] = state.v[i] + h * ((1.0 - alpha_.gamma) * a + alpha_.gamma * a_new);
+    trial_.a[i] = 0.0;
+  }
+}
+
+/// Puts the prescribed positions in and corrects velocity and acceleration as a Newton increment would.
+void GeneralizedAlpha::follow_prescribed(double gamma_h, double beta_h) {
+  const std::span<const std::size_t> unknowns = system_.prescribed();
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    predicted_[k] = {trial_.q[unknowns[k]], trial_.v[unknowns[k]], trial_.a[unknowns[k]]};
+  }
+  system_.prescribe(trial_);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    const double d = trial_.q[unknowns[k]] - predicted_[k][0];
+    trial_.v[unknowns[k]] = predicted_[k][1] + gamma_h * d;
+    trial_.a[unknowns[k]] = predicted_[k][2] + beta_h * d;
+  }
+}
+
+/// increment_ from the linearised residual at the trial state. A solver that refuses an unsymmetric matrix gets the
+/// symmetric part: Newton is then a modified one.
+StepStatus GeneralizedAlpha::solve_increment(const TangentWeights& weights, const TangentFloor& floor, StepReport& report) {
+  system_.tangent(trial_, weights, floor, residual_, tangent_);
+  system_.reduce(tangent_, residual_, condensed_);
+  ++report.residuals;
+  ++report.iterations;
+  ++report.factorizations;
+  FactorReport factors = solver_.factorize(tangent_.chain);
+  if (factors.status == FactorStatus::not_applicable) {
+    tangent_.chain.symmetrize();
+    factors = solver_.factorize(tangent_.chain);
+    report.modified_newton = true;
+    ++report.factorizations;
+  }
+  if (factors.status != FactorStatus::ok) {
+    report.worst = factors.failed_unknown;
+    return StepStatus::singular;
+  }
+  solver_.solve(condensed_);
+  system_.expand(tangent_, condensed_, increment_);
+  return StepStatus::ok;
+}
+
+/// Scaled norm [N] of what must vanish at the trial state, and the force to compare it with.
+GeneralizedAlpha::Measure GeneralizedAlpha::measure(StepReport& report) {
+  system_.residual(trial_, residual_);
+  ++report.residuals;
+  const double reference = system_.reference_force(residual_);
+  system_.project(residual_);
+  const ScaledResidual largest = system_.scaled_residual(residual_);
+  report.worst = largest.unknown;
+  report.residual = reference > 0.0 ? largest.force / reference : 0.0;
+  return {largest.force, reference};
+}
+
+void GeneralizedAlpha::accept(State& state, double h) {
+  for (std::size_t i = 0; i < auxiliary_.size(); ++i) {
+    const double forces = (1.0 - alpha_.alpha_f) * trial_.a[i] + alpha_.alpha_f * state.a[i];
+    auxiliary_[i] = (forces - alpha_.alpha_m * rebased_[i]) / (1.0 - alpha_.alpha_m);
+  }
+  std::swap(state, trial_);
+  last_step_ = h;
+}
+
+}  // namespace hawser

@@ -1,0 +1,49 @@
+#include "solver/time/line_system.hpp"
+
+#include <algorithm>
+
+#include "solver/norms.hpp"
+
+namespace hawser {
+namespace {
+
+constexpr double largest_slope_change = 0.5;  // of r' in one Newton iteration (theory 6.3)
+
+}  // namespace
+
+LineSystem::LineSystem(const Assembler& assembler)
+    : assembler_(assembler), model_(assembler.model()), nodal_load_(largest_nodal_load(assembler.model())) {
+  for (const Support& support : model_.supports) {
+    if (support.position) {
+      const std::size_t first = model_.dof(support.line, support.node);
+      prescribed_.insert(prescribed_.end(), {first, first + 1, first + 2});
+    }
+  }
+  for (const Line& line : model_.lines) {
+    reference_length_ = std::max(reference_length_, line.length);
+  }
+}
+
+ScaledResidual LineSystem::scaled_residual(std::span<const double> r) const {
+  const WorstNode worst = worst_node(model_, r);
+  return {worst.residual, model_.dof(worst.line, worst.node)};
+}
+
+double LineSystem::scaled_increment(std::span<const double> d) const { return increment_size(model_, d).scaled; }
+
+double LineSystem::step_factor(std::span<const double> d) const {
+  const double slope = increment_size(model_, d).slope;
+  return slope > largest_slope_change ? largest_slope_change / slope : 1.0;
+}
+
+double LineSystem::reference_force(std::span<const double> r) const {
+  double largest = nodal_load_;
+  for (const Support& support : model_.supports) {
+    largest = std::max(largest, Eigen::Map<const Vec3>(&r[model_.dof(support.line, support.node)]).norm());
+  }
+  return largest;
+}
+
+double LineSystem::roundoff_floor(const State& state) const { return roundoff_force(model_, state); }
+
+}  // namespace hawser
