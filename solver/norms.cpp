@@ -22,7 +22,7 @@ void for_each_node(const Model& model, std::span<const double> x, Function f) {
   }
   for (const Joint& joint : model.joints) {
     const double slope = Eigen::Map<const Eigen::VectorXd>(&x[joint.inner], joint.inner_count()).norm();
-    f(joint.line, joint.node - model.lines[joint.line].first_node, 0.0, slope, model.node_length[joint.node]);
+    f(joint.line, joint.node, 0.0, slope, model.node_length[model.lines[joint.line].first_node + joint.node]);
   }
 }
 
@@ -66,7 +66,7 @@ double largest_nodal_load(const Model& model) {
       load[line.first_node + i] += half;
       load[line.first_node + i + 1] += half;
     }
-  for (const Body& body : model.bodies) load[body.node] += Vec3(0.0, 0.0, -body.wet_weight) + body.force(0.0);
+  for (const Body& body : model.bodies) load[model.lines[body.line].first_node + body.node] += Vec3(0.0, 0.0, -body.wet_weight) + body.force(0.0);
   for (const SpreadLoad& spread : model.spread_loads) {
     const Line& line = model.lines[spread.line];
     load[line.first_node + spread.element - line.first_element] += spread.share * spread.force(0.0);
@@ -78,10 +78,8 @@ double largest_nodal_load(const Model& model) {
 
 double reference_force(const Model& model, std::span<const double> unprojected) {
   double largest = largest_nodal_load(model);
-  for (const Support& support : model.supports) {
-    const int node = support.node - model.lines[support.line].first_node;
-    largest = std::max(largest, ConstVec3(&unprojected[model.dof(support.line, node)]).norm());
-  }
+  for (const Support& support : model.supports)
+    largest = std::max(largest, ConstVec3(&unprojected[model.dof(support.line, support.node)]).norm());
   return largest;
 }
 

@@ -55,6 +55,9 @@ StaticReport solve_static(const Assembler& assembler, const StaticOptions& optio
 /// The first guess that solve_static uses for a start (not `given`).
 State static_start(const Model& model, StaticStart start);
 
+/// The same, but lines with a shape table in the scene (LineSpec::start) start from it; solve them with StaticStart::given.
+State static_start(const Model& model, StaticStart start, const Scene& scene);
+
 /// Estimated relative error of each line's end tension from the mesh: the same scene on half the elements, difference
 /// divided by 2^p - 1 (p = 4; bar: 2). NaN where the coarse problem did not converge or the mesh cannot be halved.
 std::vector<double> estimate_static_error(const Scene& scene, const StaticOptions& options, const Model& model, const State& state);

@@ -1,0 +1,97 @@
+#include "solver/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hawser {
+namespace {
+
+constexpr double slope_cap = 0.5;       // largest change of r' in one step
+constexpr double position_cap = 0.1;    // largest change of r, of L
+constexpr double floor_factor = 0.2;    // after a full step
+constexpr double floor_negligible = 1e-8;  // of its start: then the exact matrix, also where no tension is left
+constexpr double roundoff_margin = 20.0;   // a stalled residual below this many round-off floors counts as rounding
+constexpr int stalled_steps = 4;           // full steps that no longer lower the residual
+
+double step_factor(const IncrementSize& size, double length) {
+  const double by_slope = size.slope > slope_cap ? slope_cap / size.slope : 1.0;
+  const double by_position = size.position > position_cap * length ? position_cap * length / size.position : 1.0;
+  return std::min(by_slope, by_position);
+}
+
+/// Counts full steps that do not improve on the best residual so far.
+class Stall {
+ public:
+  bool stands(double residual, bool full_step) {
+    if (residual < 0.5 * best_) {
+      best_ = residual;
+      steps_ = 0;
+    } else if (full_step) {
+      ++steps_;
+    }
+    return steps_ >= stalled_steps;
+  }
+
+ private:
+  double best_ = HUGE_VAL;
+  int steps_ = 0;
+};
+
+/// Takes the increment back in halves until it no longer doubles the residual: the guard of a modified Newton.
+double damped_advance(NewtonSystem& system, double factor, double residual_before) {
+  system.advance(factor);
+  double residual = system.residual();
+  for (int halvings = 0; halvings < 6 && !(residual <= 2.0 * residual_before); ++halvings) {
+    factor *= 0.5;
+    system.advance(-factor);
+    residual = system.residual();
+  }
+  return residual;
+}
+
+}  // namespace
+
+NewtonReport newton(NewtonSystem& system, const NewtonOptions& options) {
+  NewtonReport report;
+  double floor = options.floor;
+  Stall stall;
+  report.residual = system.residual();
+  report.residuals.push_back(report.residual);
+  while (report.factorizations < options.max_iterations) {
+    ++report.factorizations;
+    if (!system.solve(floor)) {
+      report.status = NewtonStatus::no_increment;
+      return report;
+    }
+    const IncrementSize size = system.increment();
+    if (!std::isfinite(size.scaled)) {
+      report.status = NewtonStatus::not_finite;
+      return report;
+    }
+    const double factor = step_factor(size, options.length);
+    if (options.inexact_matrix) {
+      report.residual = damped_advance(system, factor, report.residual);
+    } else {
+      system.advance(factor);
+      report.residual = system.residual();
+    }
+    report.residuals.push_back(report.residual);
+    const bool full = factor == 1.0;
+    const bool small = full && size.scaled <= options.increment_tolerance * options.length;
+    if (small && report.residual <= std::max(system.tolerance(), system.roundoff())) {
+      report.status = NewtonStatus::converged;
+      return report;
+    }
+    if (stall.stands(report.residual, full) && small && report.residual <= roundoff_margin * system.roundoff()) {
+      report.status = NewtonStatus::roundoff;
+      return report;
+    }
+    if (full && floor > 0.0) {
+      floor *= floor_factor;
+      if (floor < floor_negligible * options.floor || floor < system.least_tension()) floor = 0.0;
+    }
+  }
+  return report;
+}
+
+}  // namespace hawser

@@ -1,0 +1,52 @@
+#include "solver/static_start_loads.hpp"
+
+#include <cmath>
+
+namespace hawser {
+
+Vec3 drag_density(const Model& model, int element, const Vec3& tangent, double z) {
+  const Vec3 flow = model.current.at(z) - model.tow;
+  const Vec3 along = flow.dot(tangent) * tangent, across = flow - along;
+  return model.element.drag_normal[element] * across.norm() * across + model.element.drag_tangential[element] * along.norm() * along;
+}
+
+Vec3 body_force(const Model& model, const Body& body, double z) {
+  const Vec3 flow = model.current.at(z) - model.tow;
+  return Vec3(0.0, 0.0, -body.wet_weight) + body.force(0.0) + body.drag * flow.norm() * flow;
+}
+
+Vec3 LineLoads::total(const Model& model, const Line& line) const {
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < line.elements; ++i) sum += model.element.length[line.first_element + i] * density[i];
+  for (const Vec3& force : point) sum += force;
+  return sum;
+}
+
+LineLoads dry_loads(const Model& model, int line_index, double z) {
+  const Line& line = model.lines[line_index];
+  LineLoads loads;
+  loads.density.resize(line.elements);
+  loads.point.assign(line.nodes, Vec3::Zero());
+  for (int i = 0; i < line.elements; ++i) loads.density[i] = Vec3(0.0, 0.0, -model.element.weight[line.first_element + i]);
+  for (const Body& body : model.bodies)
+    if (body.line == line_index) loads.point[body.node] += body_force(model, body, z);
+  for (const SpreadLoad& spread : model.spread_loads)
+    if (spread.line == line_index)
+      loads.density[spread.element - line.first_element] += spread.share / model.element.length[spread.element] * spread.force(0.0);
+  return loads;
+}
+
+double load_scale(const Model& model, int line_index) {
+  const Line& line = model.lines[line_index];
+  const double speed = model.current.fastest() + model.tow.norm();
+  double sum = 0.0;
+  for (int e = line.first_element; e < line.first_element + line.elements; ++e)
+    sum += model.element.length[e] * (std::abs(model.element.weight[e]) + model.element.drag_normal[e] * speed * speed);
+  for (const Body& body : model.bodies)
+    if (body.line == line_index) sum += std::abs(body.wet_weight) + body.force(0.0).norm() + body.drag * speed * speed;
+  for (const SpreadLoad& spread : model.spread_loads)
+    if (spread.line == line_index) sum += spread.share * spread.force(0.0).norm();
+  return sum;
+}
+
+}  // namespace hawser

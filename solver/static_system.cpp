@@ -1,0 +1,78 @@
+#include "solver/static_system.hpp"
+
+#include <algorithm>
+
+#include "assembly/observables.hpp"
+
+namespace hawser {
+namespace {
+
+constexpr double automatic_tolerance = 1e-10;
+constexpr TangentWeights static_weights{1.0, 0.0, 0.0};
+
+}  // namespace
+
+LeastTension least_strain_tension(const Model& model, const State& state) {
+  LeastTension least;
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
+    const LineResult result = observe_line(model, state, line);
+    if (line == 0 || result.least_strain_tension < least.value) least = {result.least_strain_tension, result.least_strain_tension_s, line};
+  }
+  return least;
+}
+
+StaticSystem::StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, State& state)
+    : assembler_(assembler),
+      model_(assembler.model()),
+      linear_(linear),
+      state_(state),
+      relative_tolerance_(tolerance > 0.0 ? tolerance : automatic_tolerance),
+      tangent_(assembler.make_tangent()),
+      r_(model_.unknowns),
+      rhs_(model_.dofs),
+      d_(model_.unknowns) {
+  linear_.analyze(tangent_.chain);
+}
+
+double StaticSystem::residual() {
+  assembler_.residual(state_, r_);
+  reference_force_ = hawser::reference_force(model_, r_);
+  roundoff_ = roundoff_force(model_, state_);
+  assembler_.project(r_);
+  return residual_norm(model_, r_);
+}
+
+double StaticSystem::least_tension() { return least_strain_tension(model_, state_).value; }
+
+bool StaticSystem::solve(double floor) {
+  assembler_.tangent(state_, static_weights, {floor, true, floor > 0.0}, r_, tangent_);
+  assembler_.reduce(tangent_, r_, rhs_);
+  assembler_.project(r_);
+  factor_report_ = factorize();
+  if (factor_report_.status != FactorStatus::ok) return false;
+  linear_.solve(rhs_);
+  assembler_.expand(tangent_, rhs_, d_);
+  return true;
+}
+
+FactorReport StaticSystem::factorize() {
+  if (!modified_) {
+    FactorReport report = linear_.factorize(tangent_.chain);
+    if (report.status != FactorStatus::not_applicable) return report;
+  }
+  modified_ = true;
+  tangent_.chain.symmetrize();
+  return linear_.factorize(tangent_.chain);
+}
+
+void StaticSystem::advance(double factor) {
+  for (std::size_t i = 0; i < d_.size(); ++i) state_.q[i] += factor * d_[i];
+}
+
+int StaticSystem::negative_pivots(bool floored) {
+  assembler_.tangent(state_, static_weights, {0.0, floored, false}, r_, tangent_);
+  assembler_.project(r_);
+  return inertia_of_symmetric_part(tangent_.chain).negative + tangent_.negative_inner_pivots();
+}
+
+}  // namespace hawser

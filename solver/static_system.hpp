@@ -1,0 +1,57 @@
+// StaticSystem: static equilibrium of a Model as Newton sees it, R(q, tow velocity, 0, 0) = 0.
+//
+// The tangent keeps Model::minimum_tension where the tension vanishes (theory 7.2); tolerance, reference force and
+// round-off floor follow theory 6.1 with the reference force of solver/norms.hpp. Where the linear solver refuses the
+// unsymmetric tangent of drag, its symmetric part is factorized: a modified Newton with the exact residual.
+#pragma once
+
+#include "assembly/assembler.hpp"
+#include "solver/linear/linear_solver.hpp"
+#include "solver/newton.hpp"
+
+namespace hawser {
+
+class StaticSystem : public NewtonSystem {
+ public:
+  /// tolerance: relative to the reference force; 0: automatic. Everything referred to must outlive the system.
+  StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, State& state);
+
+  double residual() override;
+  double tolerance() override { return relative_tolerance_ * reference_force_; }
+  double roundoff() override { return roundoff_; }
+  double least_tension() override;
+  bool solve(double floor) override;
+  IncrementSize increment() const override { return increment_size(model_, d_); }
+  void advance(double factor) override;
+
+  double reference_force() const { return reference_force_; }
+  WorstNode worst() const { return worst_node(model_, r_); }  // of the last residual
+  bool modified() const { return modified_; }
+  const FactorReport& factor_report() const { return factor_report_; }
+
+  /// Negative pivots of the symmetric part of the tangent at the present state; `floored`: with the least tension kept.
+  int negative_pivots(bool floored);
+
+ private:
+  FactorReport factorize();
+
+  const Assembler& assembler_;
+  const Model& model_;
+  LinearSolver& linear_;
+  State& state_;
+  double relative_tolerance_;
+  Tangent tangent_;
+  std::vector<double> r_, rhs_, d_;
+  double reference_force_ = 0.0, roundoff_ = 0.0;
+  bool modified_ = false;
+  FactorReport factor_report_;
+};
+
+/// Least strain tension [N] over all lines and its place.
+struct LeastTension {
+  double value = 0.0, s = 0.0;
+  int line = 0;
+};
+LeastTension least_strain_tension(const Model& model, const State& state);
+
+}  // namespace hawser

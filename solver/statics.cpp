@@ -1,0 +1,195 @@
+#include "solver/statics.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "assembly/observables.hpp"
+#include "solver/static_failure.hpp"
+#include "solver/static_start_loads.hpp"
+#include "solver/static_system.hpp"
+
+namespace hawser {
+namespace {
+
+constexpr int unfloored_iterations = 30;  // a good start needs a tenth of them
+constexpr double floor_share = 0.25;      // of the load: T_f = 0.25 w L (theory 7.2)
+
+double longest_line(const Model& model) {
+  double longest = 0.0;
+  for (const Line& line : model.lines) longest = std::max(longest, line.length);
+  return longest;
+}
+
+double starting_floor(const Model& model) {
+  double floor = 0.0;
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) floor = std::max(floor, floor_share * load_scale(model, line));
+  return floor;
+}
+
+/// Bows every line sideways, across its chord and where possible along its load: out of an unstable state.
+void perturb_sideways(const Model& model, State& state) {
+  for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
+    const Line& line = model.lines[index];
+    const Chain& chain = model.chain(index);
+    const auto r = [&](int node) { return Eigen::Map<Vec3>(&state.q[chain.dof(node)]); };
+    const Vec3 chord = r(line.nodes - 1) - r(0);
+    const double c = chord.norm(), L = line.length;
+    const Vec3 t = c > 0.0 ? Vec3(chord / c) : Vec3::UnitX();
+    Vec3 n = -Vec3::UnitZ() + t.z() * t;
+    n = n.norm() > 1e-3 ? n.normalized() : t.unitOrthogonal();
+    const double bow = std::clamp(std::sqrt(0.375 * c * std::max(L - c, 0.0)), 0.01 * L, 0.3 * L);  // sag of a parabola of length L
+    const bool free = line.from_free || line.to_free;
+    for (int i = 0; i < line.nodes; ++i) {
+      const double x = line.from_free ? 1.0 - line.s[i] / L : line.s[i] / L;
+      const double turn = free ? 0.5 * std::numbers::pi : std::numbers::pi;
+      const double shape = free ? 1.0 - std::cos(turn * x) : std::pow(std::sin(turn * x), 2);
+      const double slope = (free ? turn * std::sin(turn * x) : turn * std::sin(2.0 * turn * x)) / (line.from_free ? -L : L);
+      r(i) += bow * shape * n;
+      if (chain.block == 6) Eigen::Map<Vec3>(&state.q[chain.dof(i) + 3]) += bow * slope * n;
+    }
+  }
+  model.prescribe(state);
+  std::fill(state.a.begin(), state.a.end(), 0.0);
+  for (const Chain& chain : model.chains)
+    for (int i = 0; i < chain.nodes; ++i) Eigen::Map<Vec3>(&state.v[chain.dof(i)]) = model.tow;
+  model.align_clamps(state);
+}
+
+/// One run of solve_static: stages, each a Newton and a certificate.
+class StaticSolver {
+ public:
+  StaticSolver(const Assembler& assembler, const StaticOptions& options, State& state, StaticReport& report)
+      : assembler_(assembler),
+        model_(assembler.model()),
+        options_(options),
+        state_(state),
+        report_(report),
+        linear_(make_linear_solver(options.linear_solver)),
+        floor_(starting_floor(model_)) {
+    report_.linear_solver = linear_->name();
+  }
+
+  void run() {
+    const bool good_start = options_.start != StaticStart::straight;
+    const State start = options_.start == StaticStart::given ? state_ : static_start(model_, options_.start);
+    if (good_start && accepted("Newton from the start", start, 0.0, unfloored_iterations)) return;
+    if (accepted("tension-floored Newton from the start", start, floor_)) return;
+    if (without_bending_first()) return;
+    if (options_.start != StaticStart::catenary && accepted("tension-floored Newton from the catenary", static_start(model_, StaticStart::catenary), floor_))
+      return;
+    if (options_.start != StaticStart::straight) accepted("tension-floored Newton from straight lines", static_start(model_, StaticStart::straight), floor_);
+  }
+
+ private:
+  /// Solves from a start; true if the result is a stable equilibrium. An unstable one is bowed sideways and solved again.
+  bool accepted(const std::string& name, const State& start, double floor, int iterations = std::numeric_limits<int>::max()) {
+    state_ = start;
+    if (!converges(assembler_, name, floor, iterations)) return false;
+    if (report_.stable) return true;
+    perturb_sideways(model_, state_);
+    return converges(assembler_, name + ", bowed sideways because the result was compressed", floor_, iterations) && report_.stable;
+  }
+
+  /// EI = 0 from the catenary, then with EI from there: a folded start unfolds (theory 7.2).
+  bool without_bending_first() {
+    if (*std::max_element(model_.element.EI.begin(), model_.element.EI.end()) <= 0.0) return false;
+    Model limp = model_;
+    std::fill(limp.element.EI.begin(), limp.element.EI.end(), 0.0);
+    const Assembler limp_assembler(limp, options_.threads);
+    state_ = static_start(limp, StaticStart::catenary);
+    if (!converges(limp_assembler, "without bending stiffness", floor_, std::numeric_limits<int>::max())) return false;
+    const State start = state_;
+    return accepted("with bending stiffness from there", start, 0.0, unfloored_iterations) || accepted("the same, tension-floored", start, floor_);
+  }
+
+  bool converges(const Assembler& assembler, const std::string& name, double floor, int iterations) {
+    const int left = options_.max_iterations - report_.iterations;
+    if (left <= 0) return false;
+    StaticSystem system(assembler, *linear_, options_.tolerance, state_);
+    NewtonOptions newton_options;
+    newton_options.length = longest_line(model_);
+    newton_options.floor = floor;
+    newton_options.max_iterations = std::min(left, iterations);
+    newton_options.inexact_matrix = !linear_->takes_unsymmetric() && model_.wet;
+    const NewtonReport result = newton(system, newton_options);
+    record(system, result);
+    if (result.converged()) certify(system);
+    const std::string outcome = !result.converged() ? "not converged" : report_.stable ? "converged" : "converged, compressed and unstable";
+    report_.stages.push_back(fmt::format("{}: {} after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, result.factorizations,
+                                         report_.residual, report_.reference_force));
+    if (options_.log) options_.log(report_.stages.back());
+    if (!report_.converged || !report_.stable) report_.failure = explain_failure(model_, state_, system, result, report_);
+    return result.converged();
+  }
+
+  void record(StaticSystem& system, const NewtonReport& result) {
+    report_.iterations += result.factorizations;
+    report_.converged = result.converged();
+    report_.stable = false;
+    report_.residual_force = result.residual;
+    report_.reference_force = system.reference_force();
+    report_.roundoff_floor = system.roundoff();
+    report_.residual = report_.reference_force > 0.0 ? result.residual / report_.reference_force : result.residual;
+    report_.modified_newton = report_.modified_newton || system.modified();
+  }
+
+  /// Stable: no strain tension below what the floor treats as none, or no negative pivot of the symmetric exact tangent.
+  void certify(StaticSystem& system) {
+    const double neutral = *std::max_element(model_.element.minimum_tension.begin(), model_.element.minimum_tension.end()) + system.roundoff();
+    const bool all_tension = least_strain_tension(model_, state_).value >= -neutral;
+    report_.negative_pivots = all_tension ? 0 : system.negative_pivots(false);
+    report_.stable = report_.negative_pivots == 0;
+  }
+
+  const Assembler& assembler_;
+  const Model& model_;
+  const StaticOptions& options_;
+  State& state_;
+  StaticReport& report_;
+  std::unique_ptr<LinearSolver> linear_;
+  double floor_;  // N, T_f at the start of a floored stage
+};
+
+}  // namespace
+
+StaticReport solve_static(const Assembler& assembler, const StaticOptions& options, State& state) {
+  StaticReport report;
+  if (const auto refusal = refuse(assembler.model())) {
+    report.failure = *refusal;
+    if (options.start != StaticStart::given) state = static_start(assembler.model(), StaticStart::straight);
+    return report;
+  }
+  StaticSolver(assembler, options, state, report).run();
+  report.converged = report.converged && report.stable;
+  if (report.converged) report.failure = {};
+  return report;
+}
+
+std::vector<double> estimate_static_error(const Scene& scene, const StaticOptions& options, const Model& model, const State& state) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> estimate(model.lines.size(), unknown);
+  const Model coarse = build_model(coarsened(scene));
+  const Assembler assembler(coarse, options.threads);
+  StaticOptions coarse_options = options;
+  coarse_options.start = StaticStart::catenary;
+  coarse_options.log = nullptr;
+  State coarse_state;
+  if (!solve_static(assembler, coarse_options, coarse_state).converged) return estimate;
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
+    const double ratio = static_cast<double>(model.lines[line].elements) / coarse.lines[line].elements;
+    if (ratio <= 1.0) continue;
+    const LineResult fine = observe_line(model, state, line), rough = observe_line(coarse, coarse_state, line);
+    const double order = model.lines[line].family == Family::bar ? 2.0 : 4.0;
+    const double scale = std::max(fine.tension_from, fine.tension_to);
+    const double difference = std::max(std::abs(fine.tension_from - rough.tension_from), std::abs(fine.tension_to - rough.tension_to));
+    if (scale > 0.0) estimate[line] = difference / (scale * (std::pow(ratio, order) - 1.0));
+  }
+  return estimate;
+}
+
+}  // namespace hawser
