@@ -1,0 +1,93 @@
+#include "solver/app/command_static.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <fstream>
+#include <limits>
+
+#include "solver/app/plots.hpp"
+#include "solver/app/recorder_folder.hpp"
+#include "solver/app/text.hpp"
+
+namespace hawser {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void write_result(const fs::path& folder, const Request& request, const Scene& scene, const Model& model, const StaticSolution& solution) {
+  ResultFile result(folder / "result.h5", scene, model, request.overrides, "static");
+  const StaticReport& report = solution.report;
+  result.append(solution.state);
+  result.write_state(solution.state);
+  result.set_solver("linear_solver", report.linear_solver);
+  result.set_solver("iterations", static_cast<long>(report.iterations));
+  result.set_solver("residual", report.residual);
+  result.set_solver("wall_seconds", solution.wall_seconds);
+  result.set_status(report.converged ? "finished" : "failed");
+  std::ofstream(folder / "static.json") << static_document(model, solution, request.stations).dump(2) << '\n';
+}
+
+void draw(const fs::path& folder, const Scene& scene, const Model& model, const State& state) {
+  PlotData data{scene.title.empty() ? fs::path(scene.path).stem().string() : scene.title, model, {shape_of(model, state)}, {}, false};
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
+    data.ranges.emplace_back().add(model.lines[static_cast<std::size_t>(line)], observe_line(model, state, line));
+  }
+  const PlotReport report = draw_plots(folder, data);
+  if (!report.trouble.empty()) say_warning(report.trouble);
+}
+
+}  // namespace
+
+StaticSolution solve_requested_static(const Request& request, const Scene& scene, const Assembler& assembler) {
+  const Model& model = assembler.model();
+  StaticOptions options;
+  options.start = request.start;
+  options.linear_solver = linear_solver_kind(scene.solve.linear_solver);
+  options.tolerance = scene.solve.newton_tolerance.value_or(0.0);
+  options.threads = scene.solve.threads;
+  if (!request.quiet) options.log = [](const std::string& stage) { fmt::print(stderr, "static: {}\n", stage); };
+
+  StaticSolution solution;
+  solution.state = model.make_state();
+  if (!request.from.empty()) {
+    solution.state.q = read_last_state(request.from, model).q;
+    options.start = StaticStart::given;
+  }
+  const Clock::time_point start = Clock::now();
+  solution.report = solve_static(assembler, options, solution.state);
+  solution.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  solution.error_estimates.assign(model.lines.size(), std::numeric_limits<double>::quiet_NaN());
+  if (solution.report.converged) {
+    options.log = {};
+    if (options.start == StaticStart::given) options.start = StaticStart::catenary;  // the coarse mesh has no given state
+    solution.error_estimates = estimate_static_error(scene, options, model, solution.state);
+  }
+  return solution;
+}
+
+int command_static(const Request& request) {
+  const Scene scene = read_request(request);
+  const Model model = build_requested_model(scene);
+  std::optional<OutputFolder> folder;
+  if (!request.out.empty()) folder.emplace(request.out);
+
+  const Assembler assembler(model, scene.solve.threads);
+  const StaticSolution solution = solve_requested_static(request, scene, assembler);
+  const bool converged = solution.report.converged;
+  if (request.json) fmt::print("{}\n", static_document(model, solution, request.stations).dump(2));
+  if (!request.json && converged) fmt::print("{}", static_text(scene, model, solution));
+  if (!converged) say_failure(solution.report.failure);
+  if (converged && !solution.report.stable) say_warning("this equilibrium is not stable: the line would leave it at the least disturbance");
+
+  if (folder) {
+    write_result(folder->begin(), request, scene, model, solution);
+    const fs::path kept = converged ? folder->commit() : folder->keep_as("failed");
+    draw(kept, scene, model, solution.state);
+    fmt::print(stderr, "{} {}\n", converged ? "results and pictures in" : "the last iterate, which is no equilibrium, is kept in", kept.string());
+  }
+  return static_cast<int>(converged ? ExitCode::done : ExitCode::no_equilibrium);
+}
+
+}  // namespace hawser

@@ -1,0 +1,29 @@
+// hawser static: the equilibrium of a scene, as a table, as one JSON document, as a folder with pictures.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "solver/app/cli.hpp"
+
+namespace hawser {
+
+struct StaticSolution {
+  State state;
+  StaticReport report;
+  std::vector<double> error_estimates;  // relative, of the end tension, per line; NaN: not known
+  double wall_seconds = 0.0;            // of the solve itself
+};
+
+/// Solves, and where it converged estimates the error of the mesh. Stages are told on stderr unless quiet.
+StaticSolution solve_requested_static(const Request& request, const Scene& scene, const Assembler& assembler);
+
+/// The document of `static --json` (README.md). A solve that failed has no lines and no points, but a failure.
+nlohmann::ordered_json static_document(const Model& model, const StaticSolution& solution, int stations);
+
+/// The same for people.
+std::string static_text(const Scene& scene, const Model& model, const StaticSolution& solution);
+
+int command_static(const Request& request);
+
+}  // namespace hawser

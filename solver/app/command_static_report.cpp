@@ -1,0 +1,125 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "assembly/observables.hpp"
+#include "solver/app/command_static.hpp"
+#include "solver/app/text.hpp"
+
+namespace hawser {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::vector<Station> stations_for(const Model& model, const State& state, int line, int count) {
+  if (count == 0) return observe_nodes(model, state, line);
+  std::vector<double> s(static_cast<std::size_t>(count));
+  const double length = model.lines[static_cast<std::size_t>(line)].length;
+  for (int i = 0; i < count; ++i) s[static_cast<std::size_t>(i)] = length * i / (count - 1);
+  return observe_stations(model, state, line, s);
+}
+
+Json stations_json(const std::vector<Station>& stations) {
+  Json json = {{"s", Json::array()}, {"x", Json::array()}, {"y", Json::array()}, {"z", Json::array()},
+               {"tension", Json::array()}, {"curvature", Json::array()}, {"twist", Json::array()}};
+  for (const Station& station : stations) {
+    json["s"].push_back(station.s);
+    json["x"].push_back(station.position.x());
+    json["y"].push_back(station.position.y());
+    json["z"].push_back(station.position.z());
+    json["tension"].push_back(station.tension);
+    json["curvature"].push_back(station.curvature);
+    json["twist"].push_back(0.0);  // bar, cable and beam carry no torque
+  }
+  return json;
+}
+
+Json line_json(const Model& model, const StaticSolution& solution, int index, int stations) {
+  const Line& line = model.lines[static_cast<std::size_t>(index)];
+  const LineResult result = observe_line(model, solution.state, index);
+  Json json;
+  json["tension_from"] = result.tension_from;
+  json["tension_to"] = result.tension_to;
+  json["elements"] = line.elements;
+  json["error_estimate"] = solution.error_estimates[static_cast<std::size_t>(index)];
+  json["touchdown"] = Json::array();
+  json["moment_from"] = to_json(result.moment_from);
+  json["moment_to"] = to_json(result.moment_to);
+  json["torque_from"] = 0.0;
+  json["torque_to"] = 0.0;
+  json["model"] = name_of(line.family);
+  json["length"] = line.length;
+  json["tension_min"] = result.tension_min;
+  json["tension_max"] = result.tension_max;
+  json["curvature_max"] = result.curvature_max;
+  json["curvature_max_s"] = result.curvature_max_s;
+  json["compressed_length"] = result.compressed_length;
+  json["stations"] = stations_json(stations_for(model, solution.state, index, stations));
+  return json;
+}
+
+Json failure_json(const Failure& failure) {
+  return {{"what", failure.what}, {"line", failure.line}, {"s", failure.s}, {"cause", failure.cause}, {"remedy", failure.remedy}};
+}
+
+}  // namespace
+
+Json static_document(const Model& model, const StaticSolution& solution, int stations) {
+  const StaticReport& report = solution.report;
+  Json json;
+  json["converged"] = report.converged;
+  json["iterations"] = report.iterations;
+  json["residual"] = report.residual;
+  json["wall_seconds"] = solution.wall_seconds;
+  json["stable"] = report.stable;
+  json["negative_pivots"] = report.negative_pivots;
+  json["residual_force"] = report.residual_force;
+  json["reference_force"] = report.reference_force;
+  json["roundoff_floor"] = report.roundoff_floor;
+  json["linear_solver"] = report.linear_solver;
+  json["modified_newton"] = report.modified_newton;
+  json["stages"] = report.stages;
+  json["unknowns"] = model.unknowns;
+  json["lines"] = Json::object();
+  json["points"] = Json::object();
+  if (!report.converged) {
+    json["failure"] = failure_json(report.failure);
+    return json;
+  }
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
+    json["lines"][model.lines[static_cast<std::size_t>(line)].name] = line_json(model, solution, line, stations);
+  }
+  const std::vector<PointResult> points = observe_points(model, solution.state);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    json["points"][model.points[i].name] = {{"position", to_json(points[i].position)}, {"force", to_json(points[i].force)}};
+  }
+  return json;
+}
+
+std::string static_text(const Scene& scene, const Model& model, const StaticSolution& solution) {
+  const StaticReport& report = solution.report;
+  std::vector<std::vector<std::string>> lines{{"line", "model", "elements", "length", "tension from", "tension to", "least", "greatest", "mesh error"}};
+  for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) {
+    const Line& line = model.lines[static_cast<std::size_t>(i)];
+    const LineResult r = observe_line(model, solution.state, i);
+    const double error = solution.error_estimates[static_cast<std::size_t>(i)];
+    lines.push_back({line.name, name_of(line.family), fmt::format("{}", line.elements), fmt::format("{:.6g} m", line.length),
+                     with_prefix(r.tension_from, "N"), with_prefix(r.tension_to, "N"), with_prefix(r.tension_min, "N"), with_prefix(r.tension_max, "N"),
+                     std::isfinite(error) ? fmt::format("{:.1e}", error) : "?"});
+  }
+  std::vector<std::vector<std::string>> points{{"point", "x [m]", "y [m]", "z [m]", "force x", "force y", "force z"}};
+  const std::vector<PointResult> results = observe_points(model, solution.state);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    std::vector<std::string> row{model.points[i].name};
+    for (int axis = 0; axis < 3; ++axis) row.push_back(fmt::format("{:.3f}", results[i].position[axis]));
+    for (int axis = 0; axis < 3; ++axis) row.push_back(with_prefix(results[i].force[axis], "N"));
+    points.push_back(row);
+  }
+  return fmt::format("{}\n{} equilibrium after {} factorizations ({}), residual {:.1e} of {}, {:.3g} s\n\n{}\n{}", scene.title,
+                     report.stable ? "stable" : "UNSTABLE", report.iterations, report.linear_solver, report.residual,
+                     with_prefix(report.reference_force, "N"), solution.wall_seconds, table(lines), table(points));
+}
+
+}  // namespace hawser
