@@ -1,0 +1,258 @@
+#include "assembly/observables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/element.hpp"
+
+namespace hawser {
+
+namespace {
+
+Vec3 to_vec(const V3<double>& x) { return {x[0], x[1], x[2]}; }
+
+/// Geometry of one element in Eigen vectors: y = (r0, d, r0', r1') of a nodal quantity, evaluated at xi.
+class Interpolation {
+ public:
+  Interpolation(Family family, double length, const Nodal<double>& n) : family_(family), length_(length) {
+    y_[0] = to_vec(n.r0);
+    y_[1] = (to_vec(n.r1) - y_[0]) / length;
+    y_[2] = to_vec(n.s0);
+    y_[3] = to_vec(n.s1);
+  }
+
+  Vec3 value(double xi) const { return y_[0] + length_ * sum(&HermiteShape::rho, &StraightShape::rho, xi); }
+  Vec3 slope(double xi) const { return sum(&HermiteShape::A, &StraightShape::A, xi); }
+  Vec3 second(double xi) const { return sum(&HermiteShape::B, &StraightShape::B, xi) / length_; }
+
+ private:
+  using Coefficient = double (*)(int, double);
+  Vec3 sum(Coefficient hermite, Coefficient straight, double xi) const {
+    if (family_ == Family::bar) return straight(1, xi) * y_[1];
+    return hermite(1, xi) * y_[1] + hermite(2, xi) * y_[2] + hermite(3, xi) * y_[3];
+  }
+
+  Family family_;
+  double length_;
+  Vec3 y_[4];
+};
+
+struct ElementView {
+  Interpolation q, v, a;
+  double length;
+};
+
+ElementView view(const Model& model, const State& state, int line, int element) {
+  const ElementState<double> x = element_state(model, state, line, element);
+  const Family family = model.lines[line].family;
+  const double l = model.element.length[element];
+  return {Interpolation(family, l, x.q), Interpolation(family, l, x.v), Interpolation(family, l, x.a), l};
+}
+
+double material_curvature(const ElementView& e, double xi) {
+  const Vec3 a = e.q.slope(xi);
+  return a.cross(e.q.second(xi)).norm() / a.squaredNorm();
+}
+
+/// Tension vector [N] in the line at the two ends of an element: what the part beyond pulls with.
+struct EndForces {
+  Vec3 left, right;        // T t
+  Vec3 slope_left, slope_right;  // generalized forces conjugate to r' [N m]
+};
+
+EndForces end_forces(const Model& model, const State& state, int line, int element) {
+  const Vector12 f = element_force(model, state, line, element);
+  return {-f.segment<3>(0), f.segment<3>(6), f.segment<3>(3), f.segment<3>(9)};
+}
+
+/// d/ds of the tension vector from equilibrium of a slice: inertia - loads [N/m], spread loads left out.
+Vec3 force_rate(const Model& model, const ElementView& e, int element, double xi) {
+  const ElementArrays& p = model.element;
+  const Vec3 t = e.q.slope(xi).normalized(), acceleration = e.a.value(xi);
+  V3<double> u, gradient;
+  current_at(current_table(model), e.q.value(xi)[2], u, gradient);
+  const Vec3 flow = to_vec(u) - e.v.value(xi);
+  const double along = flow.dot(t), along_a = acceleration.dot(t);
+  const Vec3 normal = flow - along * t, normal_a = acceleration - along_a * t;
+  Vec3 rate = p.mass[element] * acceleration + Vec3(0.0, 0.0, p.weight[element]);
+  rate += p.added_normal[element] * normal_a + p.added_tangential[element] * along_a * t;
+  rate -= p.drag_normal[element] * normal.norm() * normal + p.drag_tangential[element] * std::abs(along) * along * t;
+  return rate;
+}
+
+/// Tension vector inside an element: cubic Hermite through both ends with the rates of equilibrium.
+Vec3 force_inside(const Model& model, const ElementView& e, const EndForces& f, int element, double xi) {
+  const double l = e.length, x2 = xi * xi, x3 = x2 * xi;
+  const bool spread = std::any_of(model.spread_loads.begin(), model.spread_loads.end(), [&](const SpreadLoad& s) { return s.element == element; });
+  if (spread) return (1.0 - xi) * f.left + xi * f.right;
+  return (1.0 - 3.0 * x2 + 2.0 * x3) * f.left + (3.0 * x2 - 2.0 * x3) * f.right + l * (xi - 2.0 * x2 + x3) * force_rate(model, e, element, 0.0) +
+         l * (x3 - x2) * force_rate(model, e, element, 1.0);
+}
+
+double strain_tension(const Model& model, const ElementView& e, int element, double xi) {
+  return model.element.EA[element] * (e.q.slope(xi).norm() - 1.0);
+}
+
+Station station_at(const Model& model, const State& state, int line, int element, double xi) {
+  const ElementView e = view(model, state, line, element);
+  Station s;
+  s.position = e.q.value(xi);
+  s.velocity = e.v.value(xi);
+  s.tension = force_inside(model, e, end_forces(model, state, line, element), element, xi).dot(e.q.slope(xi).normalized());
+  s.curvature = model.lines[line].family == Family::bar ? 0.0 : material_curvature(e, xi);
+  return s;
+}
+
+/// Moment on the point at an end: the generalized force on r' turned into r' x f, seen from the point.
+Vec3 end_moment(const Vec3& slope, const Vec3& generalized) { return -slope.cross(generalized); }
+
+void observe_element(const Model& model, const State& state, int line, int i, LineResult& out) {
+  const Line& l = model.lines[line];
+  const int element = l.first_element + i;
+  const ElementView e = view(model, state, line, element);
+  const EndForces f = end_forces(model, state, line, element);
+  out.tension_right[i] = f.left.dot(e.q.slope(0.0).normalized());
+  out.tension_left[i + 1] = f.right.dot(e.q.slope(1.0).normalized());
+  if (l.family != Family::bar)
+    for (int end = 0; end < 2; ++end) out.curvature[i + end] = std::max(out.curvature[i + end], material_curvature(e, end));
+  double least = std::numeric_limits<double>::infinity();
+  for (double xi : {0.0, 0.5, 1.0}) {
+    const double tension = strain_tension(model, e, element, xi);
+    least = std::min(least, tension);
+    if (tension < out.least_strain_tension) {
+      out.least_strain_tension = tension;
+      out.least_strain_tension_s = l.s[i] + xi * e.length;
+    }
+  }
+  if (least < 0.0) out.compressed_length += e.length;
+  if (i == 0) {
+    out.force_from = f.left;
+    out.moment_from = end_moment(e.q.slope(0.0), f.slope_left);
+  }
+  if (i + 1 == l.elements) {
+    out.force_to = -f.right;
+    out.moment_to = end_moment(e.q.slope(1.0), f.slope_right);
+  }
+}
+
+}  // namespace
+
+LineResult observe_line(const Model& model, const State& state, int line) {
+  const Line& l = model.lines[line];
+  LineResult out;
+  out.tension_left.assign(l.nodes, 0.0);
+  out.tension_right.assign(l.nodes, 0.0);
+  out.curvature.assign(l.nodes, 0.0);
+  out.least_strain_tension = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < l.elements; ++i) observe_element(model, state, line, i, out);
+  out.tension_left.front() = out.tension_right.front();
+  out.tension_right.back() = out.tension_left.back();
+  out.tension_from = out.force_from.norm();
+  out.tension_to = out.force_to.norm();
+  out.tension_max = std::max(*std::max_element(out.tension_left.begin(), out.tension_left.end()),
+                             *std::max_element(out.tension_right.begin(), out.tension_right.end()));
+  out.tension_min = std::min(*std::min_element(out.tension_left.begin(), out.tension_left.end()),
+                             *std::min_element(out.tension_right.begin(), out.tension_right.end()));
+  const auto most = std::max_element(out.curvature.begin(), out.curvature.end());
+  out.curvature_max = *most;
+  out.curvature_max_s = l.s[most - out.curvature.begin()];
+  return out;
+}
+
+std::vector<Station> observe_stations(const Model& model, const State& state, int line, std::span<const double> s) {
+  const Line& l = model.lines[line];
+  std::vector<Station> out;
+  for (double at : s) {
+    const double inside = std::clamp(at, 0.0, l.length);
+    const auto above = std::upper_bound(l.s.begin() + 1, l.s.end() - 1, inside);
+    const int i = static_cast<int>(above - l.s.begin()) - 1;
+    out.push_back(station_at(model, state, line, l.first_element + i, (inside - l.s[i]) / (l.s[i + 1] - l.s[i])));
+    out.back().s = at;
+  }
+  return out;
+}
+
+std::vector<Station> observe_nodes(const Model& model, const State& state, int line) {
+  const Line& l = model.lines[line];
+  const LineResult r = observe_line(model, state, line);
+  std::vector<Station> out(l.nodes);
+  for (int i = 0; i < l.nodes; ++i) {
+    const std::size_t d = model.dof(line, i);
+    out[i].s = l.s[i];
+    out[i].position = Eigen::Map<const Vec3>(&state.q[d]);
+    out[i].velocity = Eigen::Map<const Vec3>(&state.v[d]);
+    out[i].tension = r.tension_right[i];
+    out[i].curvature = r.curvature[i];
+  }
+  return out;
+}
+
+std::vector<PointResult> observe_points(const Model& model, const State& state) {
+  std::vector<PointResult> out(model.points.size());
+  for (std::size_t p = 0; p < out.size(); ++p) {
+    const Kinematics k = model.points[p].motion(state.t);
+    out[p].position = k.r;
+    out[p].velocity = k.v;
+  }
+  for (std::size_t i = 0; i < model.lines.size(); ++i) {
+    const Line& l = model.lines[i];
+    const int line = static_cast<int>(i);
+    out[l.from].force += end_forces(model, state, line, l.first_element).left;
+    out[l.to].force -= end_forces(model, state, line, l.first_element + l.elements - 1).right;
+    for (const auto& [point, node] : {std::pair{l.from, 0}, std::pair{l.to, l.nodes - 1}}) {
+      const std::size_t d = model.dof(line, node);
+      out[point].position = Eigen::Map<const Vec3>(&state.q[d]);
+      out[point].velocity = Eigen::Map<const Vec3>(&state.v[d]);
+    }
+  }
+  return out;
+}
+
+namespace {
+
+void add_element_energies(const Model& model, const State& state, int line, int element, Energies& sum) {
+  const ElementArrays& p = model.element;
+  const ElementView e = view(model, state, line, element);
+  const double l = e.length;
+  // Mass and weight by four Gauss points: exact for the sextic of the consistent mass.
+  constexpr double x4[4] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
+  constexpr double w4[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+  for (int q = 0; q < 4; ++q) {
+    const double m = w4[q] * l * p.mass[element];
+    const Vec3 r = e.q.value(x4[q]), v = e.v.value(x4[q]);
+    sum.kinetic += 0.5 * m * v.squaredNorm();
+    sum.potential += w4[q] * l * p.weight[element] * r[2];
+    sum.momentum += m * v;
+    sum.angular_momentum += m * r.cross(v);
+  }
+  const bool bar = model.lines[line].family == Family::bar;
+  for (int q = 0; q < 3; ++q) {
+    const double strain = e.q.slope(0.5 * q).norm() - 1.0;
+    const double weight = bar ? (q == 1 ? 1.0 : 0.0) : (q == 1 ? HermiteShape::middle_weight : HermiteShape::end_weight);
+    sum.axial += 0.5 * p.EA[element] * l * weight * strain * strain;
+    if (model.lines[line].family != Family::beam) continue;
+    const double kappa = material_curvature(e, gauss_xi[q]);
+    sum.bending += 0.5 * p.EI[element] * l * gauss_weight[q] * kappa * kappa;
+  }
+}
+
+}  // namespace
+
+Energies observe_energies(const Model& model, const State& state) {
+  Energies sum;
+  for (std::size_t i = 0; i < model.lines.size(); ++i)
+    for (int k = 0; k < model.lines[i].elements; ++k)
+      add_element_energies(model, state, static_cast<int>(i), model.lines[i].first_element + k, sum);
+  for (const Body& b : model.bodies) {
+    const std::size_t d = model.dof(b.line, b.node);
+    const Eigen::Map<const Vec3> r(&state.q[d]), v(&state.v[d]);
+    sum.kinetic += 0.5 * b.mass * v.squaredNorm();
+    sum.potential += b.wet_weight * r[2];
+    sum.momentum += b.mass * v;
+    sum.angular_momentum += b.mass * Vec3(r).cross(Vec3(v));
+  }
+  return sum;
+}
+
+}  // namespace hawser
