@@ -1,0 +1,86 @@
+// The chain solver: linear time and memory, no exchange of rows (chain_kernel.hpp), watched.
+//
+// Elimination without exchanges has backward error |dA| <= c eps |L||U|. Its kernel measures the growth g of the worked entries node by node;
+// when eps g would pass 1e-14 relative to the entries given, or a pivot is zero or not finite, the matrix is factorized again by the band
+// solver, which exchanges rows. A well-posed statics or dynamics tangent never gets there.
+#include <cassert>
+#include <cmath>
+#include <memory>
+
+#include "solver/linear/backends.hpp"
+#include "solver/linear/band_solver.hpp"
+#include "solver/linear/chain_kernel.hpp"
+#include "solver/linear/factor_reports.hpp"
+
+namespace hawser {
+
+namespace {
+
+constexpr double growth_limit = 100.0;  // 1e-14 / eps
+
+class ChainSolver final : public LinearSolver {
+ public:
+  std::string_view name() const override { return "chain"; }
+  bool takes_unsymmetric() const override { return true; }
+
+  void analyze(const BlockTridiagonal& pattern) override {
+    chains_.assign(pattern.chains().begin(), pattern.chains().end());
+    for ([[maybe_unused]] const Chain& c : chains_) assert(c.block == 3 || c.block == 6);
+    const std::size_t doubles_per_line = sizeof(CacheLine) / sizeof(double);
+    factors_.resize((pattern.values().size() + doubles_per_line - 1) / doubles_per_line);
+    pivoted_.reset();
+    fell_back_ = false;
+  }
+
+  FactorReport factorize(const BlockTridiagonal& matrix) override {
+    assert(matrix.chains().size() == chains_.size());
+    PivotWatch watch;
+    for (const Chain& c : chains_) kernel_.factorize(c.block, c.nodes, matrix.values().data() + c.first_value, factors_of(c), watch);
+    const bool pivots_usable = watch.not_finite == 0.0 && usable_pivot(watch.smallest) && usable_pivot(watch.largest);
+    fell_back_ = !(pivots_usable && watch.growth_squared <= growth_limit * growth_limit);
+    if (fell_back_) return factorize_pivoted(matrix);
+
+    FactorReport report;
+    report.negative_pivots = watch.negative;
+    report.smallest_pivot = watch.smallest;
+    report.largest_pivot = watch.largest;
+    return report;
+  }
+
+  void solve(std::span<double> b) override {
+    if (fell_back_) return pivoted_->solve(b);
+    for (const Chain& c : chains_) kernel_.solve(c.block, c.nodes, factors_of(c), b.data() + c.first_dof);
+  }
+
+  std::size_t bytes() const override { return sizeof(CacheLine) * factors_.size() + (pivoted_ ? pivoted_->bytes() : 0); }
+
+ private:
+  struct alignas(64) CacheLine {
+    double values[8];
+  };
+
+  double* factors_of(const Chain& c) { return factors_.data()->values + c.first_value; }
+
+  // The fallback's memory is twice the factors': it is taken when first needed.
+  FactorReport factorize_pivoted(const BlockTridiagonal& matrix) {
+    if (!pivoted_) {
+      pivoted_ = std::make_unique<BandSolver>();
+      pivoted_->analyze(matrix);
+    }
+    FactorReport report = pivoted_->factorize(matrix);
+    report.fell_back = true;
+    return report;
+  }
+
+  const ChainKernel& kernel_ = chain_kernel();
+  std::vector<Chain> chains_;
+  std::vector<CacheLine> factors_;
+  std::unique_ptr<BandSolver> pivoted_;
+  bool fell_back_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_chain_solver() { return std::make_unique<ChainSolver>(); }
+
+}  // namespace hawser
