@@ -30,7 +30,7 @@ std::string with_source(const Diagnostic& d) {
   out += '\n';
   if (!d.source.empty()) {
     const std::string carets(std::max(d.width, 1), '^');
-    out += fmt::format("{} |\n{} | {}\n{} | {}{}", margin, number, d.source, margin, indent_like(d.source, d.place.column), carets);
+    out += fmt::format("{} |\n{} | {}\n{} | {}{}", margin, number, d.source, margin, indent_like(d.source, d.source_column), carets);
     out += d.label.empty() ? "\n" : " " + d.label + "\n";
   } else if (!d.label.empty()) {
     out += fmt::format("{} = {}\n", margin, d.label);
@@ -83,7 +83,7 @@ std::string render(const Diagnostic& d) {
 
 InputError::InputError(std::vector<Diagnostic> diagnostics) : std::runtime_error(render_all(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
-InputError::InputError(const std::string& message) : InputError(std::vector<Diagnostic>{{Severity::error, message, {}, {}, {}, 1, {}, {}}}) {}
+InputError::InputError(const std::string& message) : InputError(std::vector<Diagnostic>{{Severity::error, message, {}, {}, {}, 1, 1, {}, {}}}) {}
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 64;  // no key or name that long is a slip of the finger

@@ -26,8 +26,9 @@ struct Diagnostic {
   std::string message;             // one sentence without a full stop
   std::string where;               // file name, or the command-line option; may be empty
   Place place;                     // line 0: no place within `where`
-  std::string source;              // text of that line; may be empty
-  int width = 1;                   // characters to underline from place.column
+  std::string source;              // text of that line, or a part of it; may be empty
+  int source_column = 1;           // of the place within `source`
+  int width = 1;                   // characters to underline
   std::string label;               // beside the underline; may be empty
   std::vector<std::string> notes;  // one line each: what is allowed, what to try
 };

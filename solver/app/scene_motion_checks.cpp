@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/environment/time_function.hpp"
+#include "solver/app/scene_checks.hpp"
+
+namespace hawser {
+namespace {
+
+constexpr double largest_strain = 0.5;        // at t = 0, between held ends
+constexpr double straight_tolerance = 1e-6;   // of the length: chord of an unstrained start
+constexpr double stretch_margin = 1.02;       // of the length, where a line might reach the seabed
+
+/// How far a point can go in the run.
+struct Excursion {
+  double lowest = 0.0;    // m, z
+  double sideways = 0.0;  // m, from its place at t = 0
+};
+
+Vec3 place_at_start(const PointSpec& point) { return Motion(point.position, point.motion)(0.0).r; }
+
+Excursion excursion(const PointSpec& point, double duration) {
+  const Vec3 start = place_at_start(point);
+  Excursion out{std::min(start.z(), point.position.z()), 0.0};
+  if (!point.motion) return out;
+  if (point.motion->file) {
+    for (const Vec3& position : point.motion->file->value) {
+      out.lowest = std::min(out.lowest, position.z());
+      out.sideways = std::max(out.sideways, (position - start).head<2>().norm());
+    }
+    return out;
+  }
+  out.lowest += std::min(0.0, point.motion->velocity.z() * duration);
+  out.sideways = point.motion->velocity.head<2>().norm() * duration;
+  for (const Harmonic& h : point.motion->harmonics) {
+    out.lowest -= std::abs(h.amplitude * h.direction.z());
+    out.sideways += 2.0 * std::abs(h.amplitude) * h.direction.head<2>().norm();
+  }
+  return out;
+}
+
+class MotionCheck {
+ public:
+  MotionCheck(const Scene& scene, Document& document) : scene_(scene), document_(document) {}
+
+  void run() {
+    for (const LineSpec& line : scene_.lines) {
+      const PointSpec *from = find_point(scene_, line.from), *to = find_point(scene_, line.to);
+      if (from == nullptr || to == nullptr || (from->free && to->free)) continue;
+      if (!from->free && !to->free) strain(line, *from, *to);
+      if (scene_.dynamics && scene_.dynamics->start == StartChoice::straight) straight_start(line, *from, *to);
+      if (scene_.environment.depth) seabed(line, *from, *to);
+    }
+    common_velocity();
+    for (const PointSpec& point : scene_.points) {
+      if (point.motion && scene_.dynamics) start_of_motion(point);
+    }
+  }
+
+ private:
+  void strain(const LineSpec& line, const PointSpec& from, const PointSpec& to) {
+    const double chord = (place_at_start(to) - place_at_start(from)).norm(), length = length_of(line);
+    if (!(chord / length - 1.0 > largest_strain)) return;
+    document_.error({"lines", line.name, "sections"},
+                    fmt::format("line `{}` is too short: it would have to stretch {:.0f} %", line.name, 100.0 * (chord / length - 1.0)),
+                    fmt::format("{:g} m in all", length),
+                    {fmt::format("its ends are {:g} m apart at t = 0; a line may stretch by at most 50 %", chord)});
+  }
+
+  void straight_start(const LineSpec& line, const PointSpec& from, const PointSpec& to) {
+    const double chord = (place_at_start(to) - place_at_start(from)).norm(), length = length_of(line);
+    const KeyPath place{"dynamics", "start"};
+    if (chord == 0.0) {
+      document_.error(place, fmt::format("a straight start of line `{}` has no direction: its ends are at one place", line.name));
+    } else if (!to.free && std::abs(chord - length) > straight_tolerance * length) {
+      document_.error(place, fmt::format("a straight start of line `{}` needs a free `to` end, or a length equal to the distance of its ends", line.name),
+                      fmt::format("length {:.9g} m, distance {:.9g} m", length, chord));
+    }
+  }
+
+  /// The lowest place an (almost) inextensible line can reach from its ends: on the ellipsoid with the ends as foci.
+  void seabed(const LineSpec& line, const PointSpec& from, const PointSpec& to) {
+    const double duration = scene_.dynamics ? scene_.dynamics->duration : 0.0;
+    const Excursion a = excursion(from, duration), b = excursion(to, duration);
+    const Vec3 chord = place_at_start(to) - place_at_start(from);
+    const bool free_end = from.free || to.free;
+    const double length = stretch_margin * (free_end ? length_of(line) : std::max(length_of(line), chord.norm()));
+    const double apart = std::max(0.0, chord.head<2>().norm() - a.sideways - b.sideways);
+    const double held = from.free ? b.lowest : a.lowest;
+    const double lowest = free_end ? held - length : 0.5 * (a.lowest + b.lowest - std::sqrt(std::max(0.0, length * length - apart * apart)));
+    if (!(lowest <= -*scene_.environment.depth)) return;
+    document_.error(KeyPath{"environment", "depth"}, fmt::format("seabed contact is not built yet, and line `{}` could reach the bed", line.name),
+                    fmt::format("the bed is at z = {:g} m, the line could reach z = {:.6g} m", -*scene_.environment.depth, lowest),
+                    {"remove `depth` for a scene without a seabed"});
+  }
+
+  /// Velocity with which a held point starts; empty where a file says it.
+  static std::optional<Vec3> initial_velocity(const PointSpec& point) {
+    if (!point.motion || point.motion->ramp > 0.0) return Vec3::Zero();
+    if (point.motion->file) return std::nullopt;
+    return point.motion->velocity;
+  }
+
+  bool used(const PointSpec& point) const {
+    return std::any_of(scene_.lines.begin(), scene_.lines.end(),
+                       [&](const LineSpec& line) { return line.from == point.name || line.to == point.name; });
+  }
+
+  /// One velocity for all held points is a steady tow; two without a ramp have no common steady state.
+  void common_velocity() {
+    const PointSpec* first = nullptr;
+    for (const PointSpec& point : scene_.points) {
+      const std::optional<Vec3> velocity = initial_velocity(point);
+      if (point.free || !velocity || !velocity->allFinite() || !used(point)) continue;
+      if (first == nullptr) first = &point;
+      const Vec3 other = *initial_velocity(*first);
+      if (other == *velocity) continue;
+      const PointSpec& moving = velocity->isZero(0.0) ? *first : point;
+      document_.error({"points", moving.name, "motion", "velocity"},
+                      fmt::format("points `{}` and `{}` have different velocities at t = 0", first->name, point.name), "no common steady state",
+                      {"give the motion a `ramp` to start it from rest, or give all held points the same velocity"});
+      return;
+    }
+  }
+
+  void start_of_motion(const PointSpec& point) {
+    const MotionSpec& motion = *point.motion;
+    const KeyPath place{"points", point.name, "motion"};
+    const double duration = scene_.dynamics->duration;
+    if (motion.file && (motion.file->time.front() > 0.0 || motion.file->time.back() < duration)) {
+      document_.warn(place, fmt::format("the motion of point `{}` does not cover the whole run of {:g} s", point.name, duration),
+                     fmt::format("rows from {:g} s to {:g} s", motion.file->time.front(), motion.file->time.back()),
+                     {"the point rests outside the rows of its file"});
+    }
+    if (!motion.file && motion.ramp == 0.0 && !motion.harmonics.empty()) {
+      document_.warn(place, fmt::format("the motion of point `{}` starts with a jump of velocity", point.name), "has no `ramp`",
+                     {"the run starts from rest; a ramp of a period or more avoids a shock"});
+    }
+  }
+
+  const Scene& scene_;
+  Document& document_;
+};
+
+}  // namespace
+
+void check_motion(const Scene& scene, Document& document) { MotionCheck(scene, document).run(); }
+
+}  // namespace hawser
