@@ -1,5 +1,7 @@
 #include "assembly/bodies.hpp"
 
+#include <Eigen/Geometry>
+
 #include "assembly/element.hpp"
 
 namespace hawser {

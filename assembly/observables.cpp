@@ -1,5 +1,6 @@
 #include "assembly/observables.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
