@@ -64,7 +64,7 @@ const IncludeRule rules[] = {
     {"SuiteSparseOnlyInLinear", R"((suitesparse/.*|(cholmod|umfpack|klu|amd|btf|colamd|SuiteSparse).*\.h))", R"(solver/linear/.*)"},
     {"LapackOnlyInLinear", R"((lapacke|cblas|lapack).*\.h)", R"(solver/linear/.*)"},
     {"Hdf5OnlyInTheRecorder", R"((hdf5/.*|hdf5.*\.h|H5.*\.h))", R"(solver/app/recorder.*)"},
-    {"TomlOnlyInTheSceneReader", R"(toml.*)", R"(solver/app/scene_reader.*)"},
+    {"TomlOnlyInTheSceneReader", R"(toml\+\+.*)", R"(solver/app/toml_.*)"},
     {"SundialsOnlyInItsFolder", R"((sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol|ida|idas|kinsol|cvode)/.*)", R"(solver/sundials/.*)"},
 };
 
