@@ -131,7 +131,7 @@ class StructureCheck {
       if (uses.count(point.name) > 0) continue;
       const KeyPath place{"points", point.name};
       if (point.free) document_.error(place, fmt::format("no line ends at the free point `{}`", point.name), "nothing holds it");
-      if (!point.free && !scene_.lines.empty()) document_.warn(place, fmt::format("no line ends at point `{}`", point.name), "unused");
+      if (!point.free && !document_.failed()) document_.warn(place, fmt::format("no line ends at point `{}`", point.name), "unused");
     }
   }
 

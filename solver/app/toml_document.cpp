@@ -49,13 +49,13 @@ void Document::parse() {
   if (const std::optional<Place> deep = too_deep_key(text_)) {
     const auto line = static_cast<toml::source_index>(deep->line), column = static_cast<toml::source_index>(deep->column);
     error(toml::source_region{{line, column}, {line, column + 1}, nullptr}, "a key has too many parts", "nested too deep");
-    throw InputError(diagnostics_);
+    throw InputError(diagnostics());
   }
   try {
     root_ = toml::parse(text_, std::string_view(path_));
   } catch (const toml::parse_error& failure) {
     error(failure.source(), "not a valid scene file (TOML): " + std::string(failure.description()));
-    throw InputError(diagnostics_);
+    throw InputError(diagnostics());
   }
 }
 
@@ -78,6 +78,13 @@ void Document::warn(const KeyPath& key, std::string message, std::string label, 
 void Document::add(Diagnostic diagnostic) {
   errors_ += diagnostic.severity == Severity::error;
   if (diagnostics_.size() < most_kept) diagnostics_.push_back(std::move(diagnostic));
+}
+
+std::vector<Diagnostic> Document::diagnostics() const {
+  std::vector<Diagnostic> sorted = diagnostics_;
+  const auto order = [this](const Diagnostic& d) { return d.where == path_ ? std::tuple(0, d.place.line, d.place.column) : std::tuple(1, 0, 0); };
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Diagnostic& a, const Diagnostic& b) { return order(a) < order(b); });
+  return sorted;
 }
 
 Place Document::place(const toml::source_region& region) const {

@@ -42,7 +42,9 @@ class Document {
   Place place(const toml::source_region& region) const;
 
   bool failed() const { return errors_ > 0; }
-  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+  std::size_t reported() const { return diagnostics_.size(); }
+  /// Everything reported, in the order of the file; other files and overrides after it.
+  std::vector<Diagnostic> diagnostics() const;
 
  private:
   void parse();

@@ -61,10 +61,10 @@ class Patcher {
 
   std::optional<Diagnostic> put(toml::node& target, toml::table& patch) {
     if (patch.size() != 1) return trouble(argument_, "an override sets one key: key.path=value");
-    const auto& [key, value] = *patch.begin();
-    if (toml::array* array = target.as_array()) return put_item(*array, std::string(key.str()), value);
-    if (toml::table* table = target.as_table()) return put_entry(*table, key, value);
-    return trouble(argument_, fmt::format("`{}` holds a single value, it has no key `{}`", path_, key.str()));
+    const auto entry = *patch.begin();  // a pair of references
+    if (toml::array* array = target.as_array()) return put_item(*array, std::string(entry.first.str()), entry.second);
+    if (toml::table* table = target.as_table()) return put_entry(*table, entry.first, entry.second);
+    return trouble(argument_, fmt::format("`{}` holds a single value, it has no key `{}`", path_, entry.first.str()));
   }
 
   std::optional<Diagnostic> put_entry(toml::table& table, const toml::key& key, toml::node& value) {

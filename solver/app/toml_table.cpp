@@ -20,7 +20,8 @@ std::string range_text(const Quantity& quantity) {
 
 std::string wanted_text(const Kind& kind) {
   if (kind.dimension == Dimension{}) return "a number";
-  return fmt::format("a {}: a number in {}, or a string with a unit such as \"{}\"", kind.name, kind.unit, kind.example);
+  const char* article = std::string_view("aeiou").find(kind.name[0]) == std::string_view::npos ? "a" : "an";
+  return fmt::format("{} {}: a number in {}, or a string with a unit such as \"{}\"", article, kind.name, kind.unit, kind.example);
 }
 
 /// The number written, in SI, or NaN with a report.
@@ -48,15 +49,15 @@ std::string type_of(const toml::node& node) {
     case toml::node_type::string: return "a string";
     case toml::node_type::integer:
     case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "true or false";
+    case toml::node_type::boolean: return "a boolean";
     default: return "a date or time";
   }
 }
 
 double read_number(Document& document, const toml::node& node, const Quantity& quantity, const std::string& name) {
-  const std::size_t before = document.diagnostics().size();
+  const std::size_t before = document.reported();
   const double value = number_as_written(document, node, quantity.kind, name);
-  if (document.diagnostics().size() > before) return nan;
+  if (document.reported() > before) return nan;
   if (!std::isfinite(value)) {
     document.error(node.source(), fmt::format("`{}` must be finite", name));
     return nan;
@@ -97,7 +98,7 @@ const toml::node* TableReader::find(std::string_view key) {
 
 const toml::node* TableReader::require(std::string_view key) {
   const toml::node* node = find(key);
-  if (node == nullptr) document_.error(table_.source(), fmt::format("`{}` is missing", path_of(key)), fmt::format("needs `{}`", key));
+  if (node == nullptr) missing_.emplace_back(key);
   return node;
 }
 
@@ -195,6 +196,10 @@ void TableReader::finish() {
     const std::string place = path_.empty() ? "at the top of the scene" : fmt::format("in `{}`", path_);
     document_.error(key->source(), fmt::format("unknown key `{}` {}", key->str(), place), did_you_mean(key->str(), known_),
                     {fmt::format("allowed: {}", fmt::join(known_, ", "))});
+    std::erase(missing_, nearest(key->str(), known_));
+  }
+  for (const std::string& key : missing_) {
+    document_.error(table_.source(), fmt::format("`{}` is missing", path_of(key)), fmt::format("needs `{}`", key));
   }
 }
 

@@ -53,7 +53,7 @@ class TableReader {
 
   /// The value of a key, or null; from now on the key is known.
   const toml::node* find(std::string_view key);
-  /// The same, reporting a key that is missing.
+  /// The same for a key that finish() reports if it is missing and not just misspelt.
   const toml::node* require(std::string_view key);
 
   double number(std::string_view key, const Quantity& quantity);
@@ -78,7 +78,7 @@ class TableReader {
   void error_at(std::string_view key, std::string message, std::string label = {}, std::vector<std::string> notes = {});
   void not_built(std::string_view key, const std::string& what, const std::string& remedy = {});
 
-  /// Reports keys that nobody asked for.
+  /// Reports keys that nobody asked for, and required keys that are missing.
   void finish();
 
  private:
@@ -87,7 +87,7 @@ class TableReader {
   Document& document_;
   const toml::table& table_;
   std::string path_;
-  std::vector<std::string> known_;
+  std::vector<std::string> known_, missing_;
 };
 
 /// "a number", "a string", ... for messages.
