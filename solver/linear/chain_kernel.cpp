@@ -1,23 +1,21 @@
+#include <array>
+
 #include "solver/linear/chain_kernel_body.hpp"
 
 namespace hawser {
 
+const ChainKernel baseline_chain_kernel{factorize, solve, "baseline"};
+
+std::span<const ChainKernel* const> chain_kernels() {
 #ifdef __x86_64__
-extern const ChainKernel avx2_chain_kernel;
+  static const std::array kernels = {&avx512_chain_kernel, &avx2_chain_kernel, &baseline_chain_kernel};
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return std::span(kernels).subspan(avx512 && avx2 ? 0 : avx2 ? 1 : 2);
+#else
+  static const std::array kernels = {&baseline_chain_kernel};
+  return kernels;
 #endif
-
-namespace {
-
-constexpr ChainKernel baseline_kernel{factorize, solve};
-
-}  // namespace
-
-const ChainKernel& chain_kernel() {
-#ifdef __x86_64__
-  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (wide) return avx2_chain_kernel;
-#endif
-  return baseline_kernel;
 }
 
 }  // namespace hawser

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 namespace hawser {
 
@@ -26,9 +27,12 @@ struct PivotWatch {
 struct ChainKernel {
   void (*factorize)(int block, int nodes, const double* values, double* factors, PivotWatch& watch);
   void (*solve)(int block, int nodes, const double* factors, double* b);
+  const char* instruction_set;
 };
 
-/// The kernel for the widest instruction set that this processor has and this program was built for.
-const ChainKernel& chain_kernel();
+extern const ChainKernel baseline_chain_kernel, avx2_chain_kernel, avx512_chain_kernel;
+
+/// The kernels this processor can run, fastest first.
+std::span<const ChainKernel* const> chain_kernels();
 
 }  // namespace hawser

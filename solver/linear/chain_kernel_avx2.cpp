@@ -1,14 +1,14 @@
+// Packs of four.
 #include "solver/linear/chain_kernel.hpp"
 
 #ifdef __x86_64__
-// After every other header, so that only the kernel is compiled for this set. AVX-512 was measured to bring nothing more at six rows.
+// After every other header, so that nothing but the kernel is compiled for this instruction set.
 #pragma GCC target("avx2,fma")
 #include "solver/linear/chain_kernel_body.hpp"
 
 namespace hawser {
 
-extern const ChainKernel avx2_chain_kernel;
-const ChainKernel avx2_chain_kernel{factorize, solve};
+const ChainKernel avx2_chain_kernel{factorize, solve, "avx2"};
 
 }  // namespace hawser
 #endif

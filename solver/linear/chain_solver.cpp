@@ -72,7 +72,7 @@ class ChainSolver final : public LinearSolver {
     return report;
   }
 
-  const ChainKernel& kernel_ = chain_kernel();
+  const ChainKernel& kernel_ = *chain_kernels().front();
   std::vector<Chain> chains_;
   std::vector<CacheLine> factors_;
   std::unique_ptr<BandSolver> pivoted_;
