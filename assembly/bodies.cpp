@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include <Eigen/Geometry>
+
 #include "assembly/element.hpp"
 
 namespace hawser {

@@ -1,6 +1,7 @@
 #include "assembly/observables.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

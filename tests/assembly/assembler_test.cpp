@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cstdlib>
 #include <random>
 
@@ -51,7 +52,7 @@ class AssemblerOf : public ::testing::TestWithParam<Setup> {
 INSTANTIATE_TEST_SUITE_P(Families, AssemblerOf,
                          ::testing::Values(Setup{"bar", 0, 0, ModelChoice::bar}, Setup{"cable", 0, 0, ModelChoice::automatic},
                                            Setup{"beam", 500.0, 900.0, ModelChoice::automatic}, Setup{"beam_and_cable", 500.0, 0.0, ModelChoice::automatic}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& setup) { return setup.param.name; });
 
 TEST_P(AssemblerOf, ResidualIsTheSumOfItsElements) {
   const Model model = build_model(scene());
