@@ -1,6 +1,8 @@
 #include "solver/static_system.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "assembly/observables.hpp"
 
@@ -69,10 +71,35 @@ void StaticSystem::advance(double factor) {
   for (std::size_t i = 0; i < d_.size(); ++i) state_.q[i] += factor * d_[i];
 }
 
-int StaticSystem::negative_pivots(bool floored) {
-  assembler_.tangent(state_, static_weights, {0.0, floored, false}, r_, tangent_);
-  assembler_.project(r_);
-  return inertia_of_symmetric_part(tangent_.chain).negative + tangent_.negative_inner_pivots();
+bool free_of_compression(const Model& model, const State& state, double roundoff) {
+  for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
+    const Line& line = model.lines[index];
+    double neutral = 0.0, EI = model.element.EI[line.first_element];
+    for (int e = line.first_element; e < line.first_element + line.elements; ++e) {
+      neutral = std::max(neutral, model.element.minimum_tension[e]);
+      EI = std::min(EI, model.element.EI[e]);
+    }
+    const bool clamped = std::any_of(model.supports.begin(), model.supports.end(), [&](const Support& s) { return s.line == index && s.clamped; });
+    const double euler = clamped ? EI * std::pow(std::numbers::pi / (2.0 * line.length), 2) : 0.0;
+    if (observe_line(model, state, index).least_strain_tension < -std::max(neutral + roundoff, euler)) return false;
+  }
+  return true;
+}
+
+int negative_pivots_of_elastic_tangent(const Model& model, const State& state) {
+  Model elastic = model;
+  std::fill(elastic.element.drag_normal.begin(), elastic.element.drag_normal.end(), 0.0);
+  std::fill(elastic.element.drag_tangential.begin(), elastic.element.drag_tangential.end(), 0.0);
+  const TimeFunction none;
+  for (Body& body : elastic.bodies) {
+    body.drag = 0.0;
+    body.moment = none;
+  }
+  const Assembler assembler(elastic);
+  Tangent tangent = assembler.make_tangent();
+  std::vector<double> r(elastic.unknowns);
+  assembler.tangent(state, static_weights, TangentFloor{}, r, tangent);
+  return inertia_of_symmetric_part(tangent.chain).negative + tangent.negative_inner_pivots();
 }
 
 }  // namespace hawser

@@ -29,9 +29,6 @@ class StaticSystem : public NewtonSystem {
   bool modified() const { return modified_; }
   const FactorReport& factor_report() const { return factor_report_; }
 
-  /// Negative pivots of the symmetric part of the tangent at the present state; `floored`: with the least tension kept.
-  int negative_pivots(bool floored);
-
  private:
   FactorReport factorize();
 
@@ -46,6 +43,14 @@ class StaticSystem : public NewtonSystem {
   bool modified_ = false;
   FactorReport factor_report_;
 };
+
+/// No compression that could buckle a line. Below zero are allowed: `roundoff`, the least tension that the tangent floors, and
+/// in a beam with a clamped end the Euler load of the cantilever, pi^2 EI / 4 L^2, which no straight column held there needs.
+bool free_of_compression(const Model& model, const State& state, double roundoff);
+
+/// Negative pivots of the exact tangent of the loads that have a potential: axial, bending, weight, dead forces. Drag and
+/// applied moments are left out: their tangent is not symmetric, and its symmetric part says nothing about stability.
+int negative_pivots_of_elastic_tangent(const Model& model, const State& state);
 
 /// Least strain tension [N] over all lines and its place.
 struct LeastTension {

@@ -138,11 +138,10 @@ class StaticSolver {
     report_.modified_newton = report_.modified_newton || system.modified();
   }
 
-  /// Stable: no strain tension below what the floor treats as none, or no negative pivot of the symmetric exact tangent.
+  /// Stable: no compression that could buckle a line, or no negative pivot of the exact elastic tangent.
   void certify(StaticSystem& system) {
-    const double neutral = *std::max_element(model_.element.minimum_tension.begin(), model_.element.minimum_tension.end()) + system.roundoff();
-    const bool all_tension = least_strain_tension(model_, state_).value >= -neutral;
-    report_.negative_pivots = all_tension ? 0 : system.negative_pivots(false);
+    const bool tension = free_of_compression(model_, state_, system.roundoff());
+    report_.negative_pivots = tension ? 0 : negative_pivots_of_elastic_tangent(model_, state_);
     report_.stable = report_.negative_pivots == 0;
   }
 

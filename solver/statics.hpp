@@ -42,7 +42,7 @@ struct StaticReport {
   double residual = 0.0;     // scaled, relative to the reference force (theory 6.1)
   double residual_force = 0.0, reference_force = 0.0, roundoff_floor = 0.0;  // N
   bool stable = false;
-  int negative_pivots = 0;   // of the symmetric tangent, neutral (floored) points not counted
+  int negative_pivots = 0;   // of the elastic tangent (drag and applied moments left out); 0 where every point is in tension
   std::string linear_solver;
   bool modified_newton = false;  // the symmetric part was factorized
   std::vector<std::string> stages;  // what was tried, in order

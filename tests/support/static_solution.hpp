@@ -1,6 +1,7 @@
 // Static solutions for tests, and what their discretisation is worth.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,15 +16,17 @@
 
 namespace hawser::test {
 
+/// The static solution of a scene; `given`: from the shape tables of its lines.
 struct StaticSolution {
   explicit StaticSolution(const Scene& scene, StaticStart start = StaticStart::catenary, double tolerance = 0.0)
       : model(std::make_unique<Model>(build_model(scene))) {
     const Assembler assembler(*model);
     StaticOptions options;
     options.start = start;
+    if (start == StaticStart::given) state = static_start(*model, StaticStart::catenary, scene);
     options.tolerance = tolerance;
     report = solve_static(assembler, options, state);
-    EXPECT_TRUE(report.converged) << report.failure.what << "; " << report.failure.cause;
+    EXPECT_TRUE(report.converged) << report.failure.what << "; " << report.failure.cause << "\n" << fmt::format("{}", fmt::join(report.stages, "\n"));
     EXPECT_TRUE(report.stable);
     line = observe_line(*model, state, 0);
   }
