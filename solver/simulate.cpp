@@ -13,7 +13,7 @@
 namespace hawser {
 namespace {
 
-constexpr double same_instant = 1.0e-9;  // of an interval: instants closer than this are one
+constexpr double same_instant = 1.0e-9;  // of an output interval: instants closer than this are one
 constexpr TangentFloor floored{.tension = 0.0, .use_minimum = true, .gauss_newton = true};
 
 StepOptions step_options(const SimulateOptions& options) {
@@ -38,7 +38,7 @@ class Run {
   }
 
   bool start();
-  bool advance(double t0, double t1);
+  bool advance(double t0, double t1, double h);
   SimulateReport& report() { return report_; }
   SimulateCounters& counters() { return report_.counters; }
 
@@ -68,8 +68,8 @@ bool Run::start() {
 }
 
 /// One nominal step, in pieces where it must be. False where even the smallest piece fails.
-bool Run::advance(double t0, double t1) {
-  control_.begin(t0, t1);
+bool Run::advance(double t0, double t1, double nominal) {
+  control_.begin(t0, t1, nominal);
   while (!control_.finished()) {
     const double h = control_.step();
     const StepReport step = scheme_.step(state_, control_.end_time(), h, control_.subdivided() ? floored : TangentFloor{});
@@ -124,6 +124,23 @@ void Run::fail(const StepReport& step, const std::string& what) {
   }
 }
 
+/// From one output instant to the next: equal steps, at most options.step long.
+struct Interval {
+  double end, step;  // s
+  long steps;
+};
+
+/// The k-th interval, from k = 1; the last one may be shorter.
+Interval output_interval(const SimulateOptions& options, double from, long k) {
+  const double whole = options.output_interval;
+  const double end = static_cast<double>(k) * whole;
+  const bool last = end > options.duration - same_instant * whole;
+  // The length of a whole interval is exact, not a difference of large times: all its steps are the same number.
+  const double length = last && options.duration < end - same_instant * whole ? options.duration - from : whole;
+  const long steps = std::max(1L, static_cast<long>(std::ceil(length / options.step * (1.0 - same_instant))));
+  return {last ? options.duration : end, length / static_cast<double>(steps), steps};
+}
+
 }  // namespace
 
 SimulateReport simulate(const Assembler& assembler, const SimulateOptions& options, State& state, const Observer& observe) {
@@ -135,16 +152,12 @@ SimulateReport simulate(const Assembler& assembler, const SimulateOptions& optio
   }
   double from = 0.0;
   for (long k = 1; going && !report.interrupted && from < options.duration; ++k) {
-    double to = static_cast<double>(k) * options.output_interval;
-    if (to > options.duration - same_instant * options.output_interval) {
-      to = options.duration;
+    const Interval interval = output_interval(options, from, k);
+    for (long i = 0; going && i < interval.steps; ++i) {
+      const double end = i + 1 == interval.steps ? interval.end : from + interval.step * static_cast<double>(i + 1);
+      going = run.advance(from + interval.step * static_cast<double>(i), end, interval.step);
     }
-    const long steps = std::max(1L, static_cast<long>(std::ceil((to - from) / options.step * (1.0 - same_instant))));
-    for (long i = 0; going && i < steps; ++i) {
-      const double h = (to - from) / static_cast<double>(steps);
-      going = run.advance(from + h * static_cast<double>(i), i + 1 == steps ? to : from + h * static_cast<double>(i + 1));
-    }
-    from = to;
+    from = interval.end;
     if (going && !observe(state, run.counters())) {
       report.interrupted = true;
     }

@@ -41,7 +41,7 @@ struct StepOptions {
 
 enum class StepStatus {
   ok,
-  not_converged,  // too many iterations
+  not_converged,  // too many iterations, or a solution too far away to be the right one
   not_finite,     // a residual or an increment is not a number
   singular        // no linear solve possible
 };
@@ -79,6 +79,7 @@ class GeneralizedAlpha {
   void predict(const State& state, double t, double h);
   void follow_prescribed(double gamma_h, double beta_h);
   StepStatus solve_increment(const TangentWeights& weights, const TangentFloor& floor, StepReport& report);
+  bool turned_too_far(const State& state);
   void accept(State& state, double h);
   Measure measure(StepReport& report);
 

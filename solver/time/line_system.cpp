@@ -5,11 +5,6 @@
 #include "solver/norms.hpp"
 
 namespace hawser {
-namespace {
-
-constexpr double largest_slope_change = 0.5;  // of r' in one Newton iteration (theory 6.3)
-
-}  // namespace
 
 LineSystem::LineSystem(const Assembler& assembler)
     : assembler_(assembler), model_(assembler.model()), nodal_load_(largest_nodal_load(assembler.model())) {
@@ -31,9 +26,19 @@ ScaledResidual LineSystem::scaled_residual(std::span<const double> r) const {
 
 double LineSystem::scaled_increment(std::span<const double> d) const { return increment_size(model_, d).scaled; }
 
-double LineSystem::step_factor(std::span<const double> d) const {
-  const double slope = increment_size(model_, d).slope;
-  return slope > largest_slope_change ? largest_slope_change / slope : 1.0;
+double LineSystem::largest_turn(std::span<const double> d) const {
+  double turn = increment_size(model_, d).slope;
+  for (const Line& line : model_.lines) {
+    if (line.family != Family::bar) {
+      continue;
+    }
+    const Chain& chain = model_.chain(static_cast<int>(&line - model_.lines.data()));
+    for (int i = 0; i < line.elements; ++i) {
+      const Eigen::Map<const Vec3> left(&d[chain.dof(i)]), right(&d[chain.dof(i + 1)]);
+      turn = std::max(turn, (right - left).norm() / model_.element.length[line.first_element + i]);
+    }
+  }
+  return turn;
 }
 
 double LineSystem::reference_force(std::span<const double> r) const {

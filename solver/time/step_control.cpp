@@ -2,9 +2,10 @@
 
 namespace hawser {
 
-void StepControl::begin(double t0, double t1) {
+void StepControl::begin(double t0, double t1, double h) {
   t0_ = t0;
   t1_ = t1;
+  h_ = h;
   tick_ = 0;
 }
 

@@ -12,12 +12,12 @@ class StepControl {
   /// max_halvings in [0, 30].
   explicit StepControl(int max_halvings) : max_halvings_(max_halvings) {}
 
-  /// Starts the nominal step from t0 to t1 [s].
-  void begin(double t0, double t1);
+  /// Starts the nominal step from t0 to t1, h = t1 - t0 but for rounding [s].
+  void begin(double t0, double t1, double h);
 
   /// The sub-step in hand: its end and its length [s].
   double end_time() const { return time_at(tick_ + ticks()); }
-  double step() const { return (t1_ - t0_) * static_cast<double>(ticks()) / static_cast<double>(whole()); }
+  double step() const { return h_ * static_cast<double>(ticks()) / static_cast<double>(whole()); }
 
   bool finished() const { return tick_ == whole(); }
   bool subdivided() const { return level_ > 0; }
@@ -36,7 +36,7 @@ class StepControl {
   int max_halvings_;
   int level_ = 0;
   long tick_ = 0;
-  double t0_ = 0.0, t1_ = 0.0;
+  double t0_ = 0.0, t1_ = 0.0, h_ = 0.0;
 };
 
 }  // namespace hawser

@@ -46,8 +46,8 @@ class System {
   virtual ScaledResidual scaled_residual(std::span<const double> r) const = 0;
   virtual double scaled_increment(std::span<const double> d) const = 0;
 
-  /// The share of a Newton increment that may be taken at once, in (0, 1].
-  virtual double step_factor(std::span<const double> d) const = 0;
+  /// The largest rotation or stretch in an increment [-]: |d_r'|, between the nodes of a bar |d_r1 - d_r0|/l.
+  virtual double largest_turn(std::span<const double> d) const = 0;
 
   /// What residual [N] and increment [m] are compared with; the residual as it is before project().
   virtual double reference_force(std::span<const double> r) const = 0;

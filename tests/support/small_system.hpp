@@ -141,7 +141,7 @@ class SmallSystem : public System {
     }
     return largest;
   }
-  double step_factor(std::span<const double>) const override { return 1.0; }
+  double largest_turn(std::span<const double>) const override { return 0.0; }
   double reference_length() const override { return Problem::length; }
   double reference_force(std::span<const double>) const override { return Problem::force; }
   double roundoff_floor(const State&) const override { return 4e-16 * Problem::force; }

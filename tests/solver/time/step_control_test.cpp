@@ -9,17 +9,17 @@ namespace {
 
 TEST(StepControl, WithoutFailuresTakesTheNominalStep) {
   StepControl control(10);
-  control.begin(0.0, 0.1);
+  control.begin(0.0, 0.1, 0.1);
   EXPECT_FALSE(control.subdivided());
   EXPECT_EQ(control.end_time(), 0.1);
-  EXPECT_DOUBLE_EQ(control.step(), 0.1);
+  EXPECT_EQ(control.step(), 0.1);
   control.advance(true);
   EXPECT_TRUE(control.finished());
 }
 
 TEST(StepControl, SubStepsAfterAFailureEndExactlyAtTheNominalEnd) {
   StepControl control(10);
-  control.begin(0.0, 0.3);
+  control.begin(0.0, 0.3, 0.3);
   ASSERT_TRUE(control.halve());
   ASSERT_TRUE(control.halve());
   std::vector<double> ends;
@@ -36,7 +36,7 @@ TEST(StepControl, SubStepsAfterAFailureEndExactlyAtTheNominalEnd) {
 
 TEST(StepControl, StaysFineWhileStepsAreHard) {
   StepControl control(10);
-  control.begin(0.0, 1.0);
+  control.begin(0.0, 1.0, 1.0);
   ASSERT_TRUE(control.halve());
   ASSERT_TRUE(control.halve());
   int steps = 0;
@@ -44,14 +44,14 @@ TEST(StepControl, StaysFineWhileStepsAreHard) {
     control.advance(false);
   }
   EXPECT_EQ(steps, 4);
-  control.begin(1.0, 2.0);
+  control.begin(1.0, 2.0, 1.0);
   EXPECT_DOUBLE_EQ(control.step(), 0.25);
   EXPECT_TRUE(control.subdivided());
 }
 
 TEST(StepControl, HalvingsAreBounded) {
   StepControl control(3);
-  control.begin(0.0, 8.0);
+  control.begin(0.0, 8.0, 8.0);
   EXPECT_TRUE(control.halve());
   EXPECT_TRUE(control.halve());
   EXPECT_TRUE(control.halve());
