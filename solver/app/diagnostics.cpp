@@ -88,14 +88,19 @@ InputError::InputError(const std::string& message) : InputError(std::vector<Diag
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 64;  // no key or name that long is a slip of the finger
   if (word.empty() || word.size() > longest) return {};
+  const std::string wanted = lower_case(word);
+  const std::size_t most = word.size() / 3 + 1;  // one edit in a short word, one more every three letters
   std::string best;
-  std::size_t best_distance = word.size() / 3 + 2;  // exclusive: one edit in a short word, one more every three letters
+  std::pair<std::size_t, std::size_t> best_score{most + 1, 0};  // edits; letters after the common beginning
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest) continue;
-    const std::size_t distance = edit_distance(lower_case(word), lower_case(candidate));
-    if (distance < best_distance && distance < candidate.size()) {
+    const std::string name = lower_case(candidate);
+    const std::size_t edits = edit_distance(wanted, name);
+    const auto common = std::mismatch(wanted.begin(), wanted.end(), name.begin(), name.end()).first - wanted.begin();
+    const std::pair score{edits, wanted.size() - static_cast<std::size_t>(common)};
+    if (edits <= most && edits < candidate.size() && score < best_score) {
       best = candidate;
-      best_distance = distance;
+      best_score = score;
     }
   }
   return best;

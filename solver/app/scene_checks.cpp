@@ -50,7 +50,9 @@ class StructureCheck {
  private:
   void line_names(const LineSpec& line) {
     for (const auto& [key, name] : {std::pair{"from", line.from}, std::pair{"to", line.to}}) {
-      if (name.empty() || find_point(scene_, name)) continue;
+      if (find_point(scene_, name)) continue;
+      unknown_ends_ = true;
+      if (name.empty()) continue;
       const auto points = names_of(scene_.points);
       document_.error({"lines", line.name, key}, fmt::format("line `{}` ends at `{}`, which is not a point", line.name, name),
                       did_you_mean(name, points), {defined(points)});
@@ -128,10 +130,10 @@ class StructureCheck {
       }
     }
     for (const PointSpec& point : scene_.points) {
-      if (uses.count(point.name) > 0) continue;
+      if (unknown_ends_ || uses.count(point.name) > 0) continue;
       const KeyPath place{"points", point.name};
       if (point.free) document_.error(place, fmt::format("no line ends at the free point `{}`", point.name), "nothing holds it");
-      if (!point.free && !document_.failed()) document_.warn(place, fmt::format("no line ends at point `{}`", point.name), "unused");
+      if (!point.free && !scene_.lines.empty()) document_.warn(place, fmt::format("no line ends at point `{}`", point.name), "unused");
     }
   }
 
@@ -204,6 +206,7 @@ class StructureCheck {
 
   const Scene& scene_;
   Document& document_;
+  bool unknown_ends_ = false;  // some line ends at no known point: that a point is unused says nothing
 };
 
 }  // namespace

@@ -58,9 +58,11 @@ class TableParser {
     std::size_t at = 0;
     while (at < lines_.size() && skipped(lines_[at])) ++at;
     if (!header(at)) return {};
+    const std::size_t header_line = at;
     for (++at; at < lines_.size() && faults_ < most_reported; ++at) {
       if (!skipped(lines_[at])) add_row(table, at);
     }
+    if (table.rows.empty() && faults_ == 0) fault(header_line, {lines_[header_line], 1}, "the table has no rows");
     if (faults_ > 0) return {};
     return table;
   }

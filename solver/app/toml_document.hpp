@@ -4,7 +4,6 @@
 // message can point at it whoever finds the fault. Keys are named by their dotted path, as in --set: `lines.a.sections.0`.
 #pragma once
 
-#include <toml++/toml.h>
 
 #include <string>
 #include <string_view>
@@ -13,6 +12,7 @@
 
 #include "assembly/scene.hpp"
 #include "solver/app/diagnostics.hpp"
+#include "solver/app/toml.hpp"
 
 namespace hawser {
 

@@ -1,13 +1,13 @@
 // --set key.path=value: one value of a parsed scene replaced or added.
 #pragma once
 
-#include <toml++/toml.h>
 
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "solver/app/diagnostics.hpp"
+#include "solver/app/toml.hpp"
 
 namespace hawser {
 
