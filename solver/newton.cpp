@@ -37,11 +37,11 @@ class Stall {
   int steps_ = 0;
 };
 
-/// Takes the increment back in halves until it no longer doubles the residual: the guard of a modified Newton.
+/// Takes the increment back in halves until it no longer raises the residual: the guard of a modified Newton.
 double damped_advance(NewtonSystem& system, double factor, double residual_before) {
   system.advance(factor);
   double residual = system.residual();
-  for (int halvings = 0; halvings < 6 && !(residual <= 2.0 * residual_before); ++halvings) {
+  for (int halvings = 0; halvings < 6 && !(residual <= residual_before); ++halvings) {
     factor *= 0.5;
     system.advance(-factor);
     residual = system.residual();
@@ -69,7 +69,7 @@ NewtonReport newton(NewtonSystem& system, const NewtonOptions& options) {
       return report;
     }
     const double factor = step_factor(size, options.length);
-    if (options.inexact_matrix) {
+    if (options.inexact_matrix && floor == 0.0) {
       report.residual = damped_advance(system, factor, report.residual);
     } else {
       system.advance(factor);

@@ -42,7 +42,7 @@ struct NewtonOptions {
   double floor = 0.0;                 // T_f at the start [N]; 0: the exact matrix from the first iteration
   double increment_tolerance = 1e-8;  // of the last increment, relative to L
   int max_iterations = 200;
-  bool inexact_matrix = false;        // the matrix is not the tangent (modified Newton): halve steps that raise the residual
+  bool inexact_matrix = false;        // the matrix is not the tangent (modified Newton): once the floor is gone, halve steps that raise the residual
 };
 
 enum class NewtonStatus {

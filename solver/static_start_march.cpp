@@ -3,15 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "solver/static_start_loads.hpp"
 
 namespace hawser {
 namespace {
 
-constexpr int passes = 30;         // over the position of the free end
-constexpr int substeps = 4;        // Runge-Kutta steps in an element
-constexpr int angle_passes = 200;  // of the direction of a bare end
+constexpr int passes = 30;   // over the position of the free end
+constexpr int substeps = 4;  // Runge-Kutta steps in an element
 
 /// Integrates one line from its free end; positions relative to that end.
 class March {
@@ -56,14 +56,25 @@ class March {
   }
 
   Vec3 first_direction(const LineLoads& loads) {
-    const int e = from_free_ ? 0 : line_.elements - 1;
     scale_ = std::max(load_scale(model_, index_), 1e-300);
     if (G_.norm() > 1e-9 * scale_) return G_.normalized();
-    const auto load = [&](const Vec3& t) { return Vec3(loads.density[e] + drag_density(model_, line_.first_element + e, t, z_free_)); };
-    Vec3 t = -load(Vec3::UnitZ()).stableNormalized();
-    if (t.isZero()) return Vec3::UnitZ();
-    for (int pass = 0; pass < angle_passes; ++pass) t = (t - load(t).stableNormalized()).stableNormalized();
-    return t;
+    return bare_end_direction(from_free_ ? 0 : line_.elements - 1, loads);
+  }
+
+  /// The critical angle, by bisection: between the flow (angle 0) and the weight (90 degrees) the load across the line falls
+  /// from the weight to minus the drag.
+  Vec3 bare_end_direction(int e, const LineLoads& loads) const {
+    const Vec3 flow = model_.current.at(z_free_) - model_.tow, along = flow.stableNormalized();
+    const Vec3 weight = loads.density[e] - loads.density[e].dot(along) * along, down = weight.stableNormalized();
+    if (weight.isZero(0.0)) return along.isZero(0.0) ? Vec3::UnitZ() : Vec3(-along);
+    double low = 0.0, high = 0.5 * std::numbers::pi;
+    for (int pass = 0; pass < 60; ++pass) {
+      const double angle = 0.5 * (low + high);
+      const Vec3 t = std::cos(angle) * along + std::sin(angle) * down, n = std::cos(angle) * down - std::sin(angle) * along;
+      const Vec3 load = loads.density[e] + drag_density(model_, line_.first_element + e, t, z_free_);
+      (load.dot(n) > 0.0 ? low : high) = angle;
+    }
+    return -(std::cos(high) * along + std::sin(high) * down);
   }
 
   void element(int e, const LineLoads& loads) {

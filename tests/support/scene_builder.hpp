@@ -48,10 +48,9 @@ class SceneBuilder {
     return *this;
   }
   SceneBuilder& fixed(const std::string& name, const Vec3& position) {
-    PointSpec point;
-    point.name = name;
-    point.position = position;
-    scene.points.push_back(point);
+    scene.points.emplace_back();
+    scene.points.back().name = name;
+    scene.points.back().position = position;
     return *this;
   }
   SceneBuilder& towed(const std::string& name, const Vec3& position, const Vec3& velocity) {
@@ -67,20 +66,18 @@ class SceneBuilder {
     return *this;
   }
   SceneBuilder& line(const std::string& from, const std::string& to, ModelChoice model = ModelChoice::automatic) {
-    LineSpec spec;
+    LineSpec& spec = scene.lines.emplace_back();
     spec.name = "line";
     spec.from = from;
     spec.to = to;
     spec.model = model;
-    scene.lines.push_back(spec);
     return *this;
   }
   SceneBuilder& section(const std::string& type, double length, int elements) {
-    SectionSpec spec;
+    SectionSpec& spec = scene.lines.back().sections.emplace_back();
     spec.type = type;
     spec.length = length;
     spec.elements = elements;
-    scene.lines.back().sections.push_back(spec);
     return *this;
   }
   SceneBuilder& clamp_from(const Vec3& direction) {
@@ -92,10 +89,9 @@ class SceneBuilder {
     return *this;
   }
   SceneBuilder& load(double at, const BodySpec& body) {
-    LoadSpec spec;
+    LoadSpec& spec = scene.lines.back().loads.emplace_back();
     spec.at = at;
     spec.body = body;
-    scene.lines.back().loads.push_back(spec);
     return *this;
   }
 
