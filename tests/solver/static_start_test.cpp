@@ -51,7 +51,6 @@ RC_GTEST_PROP(EndForce, ReachesTheFarEndOverAnySpan, ()) {
   const EndForce end = solve_end_force({{L, EA, {0.0, 0.0, -sign * w}, Vec3::Zero()}}, chord);
   RC_ASSERT(end.converged);
   RC_ASSERT(end.gap <= 1e-12 * L);
-  RC_ASSERT(end.iterations <= 100);
   const double H = end.force.head<2>().norm(), V = sign * end.force.z();
   if (H > 1e-6 * (std::abs(V) + w * L)) {  // the formula of theory 7.1, where its two square roots do not cancel
     const double x = H * L / EA + H / w * (std::asinh((V + w * L) / H) - std::asinh(V / H));
