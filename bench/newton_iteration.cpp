@@ -1,0 +1,70 @@
+// What a Newton iteration of a time step costs an element: all linear solvers side by side, 10^2 to 10^5 elements (chain: 10^6).
+//
+//   hawser_bench --benchmark_filter=newton
+//
+// full:   residual + tangent, reduce, factorize, solve, expand
+// reused: residual, reduce, solve, expand with the factors of an earlier iteration
+// CHOLMOD factorizes the symmetric part (a modified Newton); forming it is counted.
+#include <algorithm>
+#include <string>
+
+#include "bench/fixture.hpp"
+
+namespace {
+
+using namespace hawser;
+using namespace hawser::bench;
+
+void full_iteration(MovingLine& line, LinearSolver& solver) {
+  line.assemble();
+  line.assembler.reduce(line.tangent, line.r, line.rhs);
+  if (!solver.takes_unsymmetric()) line.tangent.chain.symmetrize();
+  benchmark::DoNotOptimize(solver.factorize(line.tangent.chain).smallest_pivot);
+  solver.solve(line.rhs);
+  line.assembler.expand(line.tangent, line.rhs, line.d);
+}
+
+void reused_iteration(MovingLine& line, LinearSolver& solver) {
+  line.assembler.residual(line.state, line.r);
+  line.assembler.reduce(line.tangent, line.r, line.rhs);
+  solver.solve(line.rhs);
+  line.assembler.expand(line.tangent, line.rhs, line.d);
+}
+
+void newton(benchmark::State& state, ModelChoice family, LinearSolverKind kind, bool reused) {
+  const int elements = static_cast<int>(state.range(0));
+  MovingLine line(family, elements);
+  const auto solver = make_linear_solver(kind);
+  solver->analyze(line.tangent.chain);
+  full_iteration(line, *solver);
+  for (auto _ : state) {
+    if (reused) {
+      reused_iteration(line, *solver);
+    } else {
+      full_iteration(line, *solver);
+    }
+    benchmark::ClobberMemory();
+  }
+  std::vector<double> b(line.model.dofs);
+  line.assembler.reduce(line.tangent, line.r, b);
+  state.counters["s_per_element"] = per_element(elements);
+  state.counters["bytes_per_element"] = (line.bytes(true) + static_cast<double>(solver->bytes())) / elements;
+  state.counters["backward_error"] = backward_error(line.tangent.chain, line.rhs, b);
+}
+
+const bool registered = [] {
+  for (const bool reused : {false, true})
+    for (const LinearSolverKind kind : all_linear_solvers())
+      for (const ModelChoice family : families) {
+        const bool chain = kind == LinearSolverKind::chain;
+        if (!chain && family != ModelChoice::beam) continue;
+        const std::string name = std::string("newton/") + (reused ? "reused/" : "full/") + std::string(name_of(kind)) + "/" + word_of(family);
+        benchmark::RegisterBenchmark(name.c_str(), newton, family, kind, reused)
+            ->RangeMultiplier(10)
+            ->Range(100, chain && family == ModelChoice::beam ? 1000000 : 100000)
+            ->Unit(benchmark::kMicrosecond);
+      }
+  return true;
+}();
+
+}  // namespace
