@@ -38,7 +38,11 @@ std::vector<Item> read_named(TableReader& scene, const std::string& key, const s
   std::vector<Item> items;
   const toml::table* tables = scene.find_table(key);
   if (tables == nullptr) return items;
+  constexpr std::size_t most = 10'000;  // names are looked up one by one
+  if (tables->size() > most) scene.error_at(key, fmt::format("`{}` has {} tables; at most {} are read", key, tables->size(), most));
+  if (tables->size() > most) return items;
   for (const auto& [name, node] : in_file_order(*tables)) {
+    if (scene.document().full()) break;
     check_name(scene.document(), *name, what);
     if (const toml::table* table = node->as_table()) {
       items.push_back(read(scene.document(), *name, *table));

@@ -62,7 +62,8 @@ std::string path_beside(const std::string& beside, const std::string& file) { re
 
 Excerpt excerpt(std::string_view line, int column) {
   constexpr int before = 60, whole = 160;
-  const int skipped = column > whole - before ? column - before : 0;
+  const bool fits = byte_of(line, whole) == line.size();
+  const int skipped = !fits && column > whole - before ? column - before : 0;
   const std::size_t begin = byte_of(line, static_cast<std::size_t>(skipped));
   const std::string_view shown = line.substr(begin);
   std::string text(shown.substr(0, byte_of(shown, whole)));

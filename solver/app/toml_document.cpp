@@ -77,8 +77,10 @@ void Document::warn(const KeyPath& key, std::string message, std::string label, 
 
 void Document::add(Diagnostic diagnostic) {
   errors_ += diagnostic.severity == Severity::error;
-  if (diagnostics_.size() < most_kept) diagnostics_.push_back(std::move(diagnostic));
+  if (!full()) diagnostics_.push_back(std::move(diagnostic));
 }
+
+bool Document::full() const { return diagnostics_.size() >= most_kept; }
 
 std::vector<Diagnostic> Document::diagnostics() const {
   std::vector<Diagnostic> sorted = diagnostics_;

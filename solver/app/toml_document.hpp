@@ -43,6 +43,8 @@ class Document {
 
   bool failed() const { return errors_ > 0; }
   std::size_t reported() const { return diagnostics_.size(); }
+  /// So much was reported that more is not kept: loops over entries may stop.
+  bool full() const;
   /// Everything reported, in the order of the file; other files and overrides after it.
   std::vector<Diagnostic> diagnostics() const;
 

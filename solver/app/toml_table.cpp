@@ -192,6 +192,7 @@ void TableReader::not_built(std::string_view key, const std::string& what, const
 
 void TableReader::finish() {
   for (const auto& [key, node] : in_file_order(table_)) {
+    if (document_.full()) return;
     if (std::find(known_.begin(), known_.end(), key->str()) != known_.end()) continue;
     const std::string place = path_.empty() ? "at the top of the scene" : fmt::format("in `{}`", path_);
     document_.error(key->source(), fmt::format("unknown key `{}` {}", key->str(), place), did_you_mean(key->str(), known_),

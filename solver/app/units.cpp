@@ -50,6 +50,8 @@ constexpr std::array symbols{
     Symbol{"nmi", 1852.0, length, false},
     Symbol{"ha", 1e4, area, false},
     Symbol{"kn", 1852.0 / 3600.0, speed, false},
+    Symbol{"kt", 1852.0 / 3600.0, speed, false},
+    Symbol{"kts", 1852.0 / 3600.0, speed, false},
     Symbol{"knot", 1852.0 / 3600.0, speed, false},
     Symbol{"knots", 1852.0 / 3600.0, speed, false},
 };

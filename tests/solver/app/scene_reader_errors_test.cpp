@@ -82,6 +82,7 @@ const Fault meaning[] = {
     {"UnknownModel", "[dynamics]", "model = \"cabel\"\n[dynamics]", ":18:9", {"one of \"auto\", \"bar\", \"cable\", \"beam\"", "did you mean `cable`?"}},
     {"UnusedFreePoint", "[lines.a]", "[points.lost]\nfree = true\nposition = [1, 1, 1]\n[lines.a]", ":14:1", {"no line ends at the free point `lost`"}},
     {"MasslessDynamics", "mass = 2.5", "mass = 0.0", ":6:8", {"a scene with [dynamics] needs line types with mass > 0"}},
+    {"ElementTotal", "elements = 10 }", "elements = 6000000 }, { type = \"rope\", length = 10.0, elements = 6000000 }", ":17:111", {"the whole scene may have 10000000 elements"}},
     {"StationName", "[dynamics]", "[output]\nstations = { b = [1.0] }\n[dynamics]", ":19:18", {"`b` is not a line", "defined: a"}},
     {"StationRange", "[dynamics]", "[output]\nstations = { a = [1.0, 100.5] }\n[dynamics]", ":19:24", {"must lie in 0 to 100 m"}},
     {"RepeatedDepth", "water_density = 1000.0", "current = [[0, 1, 0], [-9, 1, 0], [0, 2, 0]]", ":3:35", {"repeats the z of another row"}},
@@ -153,6 +154,17 @@ TEST_F(ReaderErrors, AreFoundAllInOnePassInTheOrderOfTheFile) {
     ASSERT_NE(next, std::string::npos) << place << report;
     at = next;
   }
+}
+
+TEST_F(ReaderErrors, StopAtManyOfTheSameKind) {
+  std::string keys, points;
+  for (int i = 0; i < 20000; ++i) {
+    keys += "k" + std::to_string(i) + " = 1\n";
+    points += "[points.p" + std::to_string(i) + "]\nposition = [0, 0, 0]\n";
+  }
+  const std::string unknown = errors(keys + sound_scene), many = errors(points + sound_scene.substr(sound_scene.find("[environment]")));
+  EXPECT_NE(unknown.find("... and 950 more"), std::string::npos);
+  EXPECT_NE(many.find("`points` has 20002 tables; at most 10000 are read"), std::string::npos) << many;
 }
 
 TEST_F(ReaderErrors, OfAnEmptySceneNameWhatItNeeds) {
