@@ -1,5 +1,10 @@
 #include <array>
 
+#ifdef __AVX__
+#define HAWSER_WIDEST_PACK 4
+#else
+#define HAWSER_WIDEST_PACK 2
+#endif
 #include "solver/linear/chain_kernel_body.hpp"
 
 namespace hawser {

@@ -4,6 +4,7 @@
 #ifdef __x86_64__
 // After every other header, so that nothing but the kernel is compiled for this instruction set.
 #pragma GCC target("avx512f,avx512vl,avx512dq,fma")
+#define HAWSER_WIDEST_PACK 4
 #include "solver/linear/chain_kernel_body.hpp"
 
 namespace hawser {

@@ -1,7 +1,8 @@
 // The kernel of chain_kernel.hpp, compiled once for each instruction set by the chain_kernel*.cpp files.
 //
 // Everything here has internal linkage and nothing comes from other headers: an inline function shared with another file could be kept
-// by the linker in the wrong instruction set.
+// by the linker in the wrong instruction set. The including file defines HAWSER_WIDEST_PACK: the compiler does not define __AVX__ after a
+// target pragma.
 #pragma once
 
 #include "solver/linear/chain_kernel.hpp"
@@ -13,11 +14,7 @@ namespace hawser {
 
 namespace {
 
-#ifdef __AVX__
-constexpr int widest_pack = 4;
-#else
-constexpr int widest_pack = 2;
-#endif
+constexpr int widest_pack = HAWSER_WIDEST_PACK;
 
 // Lanes of one pack; masks are compile-time constants once the loops around them are unrolled.
 template <int Lanes>
@@ -137,7 +134,7 @@ struct ColumnWatch {
 // Factorizes one node. In `factors`: D_k reduced by the nodes before, which becomes L_k\U_k. Leaves Y_k and X_k behind it, and D_{k+1}
 // reduced in the next node's place. `last` has no U and L.
 template <int B>
-HAWSER_INLINE void eliminate_node(const double* values, double* factors, bool last, ColumnWatch<B>& watch) {
+HAWSER_INLINE void eliminate_node(const double* __restrict values, double* __restrict factors, bool last, ColumnWatch<B>& watch) {
   constexpr int block = B * B;
   const double *upper = values + block, *lower = values + 2 * block, *next = values + 3 * block;
   Column<B> multiplier[B];  // columns of L_k, zero down to the diagonal
@@ -177,7 +174,8 @@ HAWSER_INLINE void eliminate_node(const double* values, double* factors, bool la
     y.load(upper + B * j), d.load(next + B * j);
     HAWSER_UNROLL for (int i = 0; i < B; ++i) {
       const double u = y.at(i);
-      y.subtract(multiplier[i], u), d.subtract(x[i], u);
+      if (i + 1 < B) y.subtract(multiplier[i], u);
+      d.subtract(x[i], u);
     }
     worked.add_squares(y);
     y.store(factors + block + B * j), d.store(factors + 3 * block + B * j);
