@@ -74,21 +74,20 @@ class StructureCheck {
   }
 
   /// The family that the mesh will choose: theory and data/README.md, `model`.
-  bool is_beam(const LineSpec& line) const {
-    return line.model == ModelChoice::beam || (line.model == ModelChoice::automatic && bends(line));
-  }
+  bool is_beam(const LineSpec& line) const { return line.model == ModelChoice::beam || (line.model == ModelChoice::automatic && bends(line)); }
 
   void line_ends(const LineSpec& line) {
     const PointSpec *from = find_point(scene_, line.from), *to = find_point(scene_, line.to);
     if (from && to && from->free && to->free) {
-      document_.error({"lines", line.name, "to"}, fmt::format("line `{}` is free at both ends: this is not built yet", line.name),
-                      "not built yet", {"fix one of the two points"});
+      document_.error({"lines", line.name, "to"}, fmt::format("line `{}` is free at both ends: this is not built yet", line.name), "not built yet",
+                      {"fix one of the two points"});
     }
     for (const auto& [key, end, point] : {std::tuple{"from_end", line.from_end, from}, std::tuple{"to_end", line.to_end, to}}) {
       if (!end.clamped) continue;
       const KeyPath place{"lines", line.name, key};
       if (point && point->free) document_.error(place, "a clamp needs a point that is held", fmt::format("point `{}` is free", point->name));
-      if (line.model == ModelChoice::bar) document_.error(place, "a bar cannot be clamped: it has no direction at its ends", "", {"use model = \"beam\""});
+      if (line.model == ModelChoice::bar)
+        document_.error(place, "a bar cannot be clamped: it has no direction at its ends", "", {"use model = \"beam\""});
       if (line.model != ModelChoice::bar && !is_beam(line)) {
         document_.warn(place, "a clamp does nothing to a line without bending stiffness", "needs EI > 0");
       }
@@ -196,7 +195,8 @@ class StructureCheck {
     for (const auto& [name, s] : arc_lengths) {
       const LineSpec* line = known_line(place, name);
       const auto back = std::adjacent_find(s.begin(), s.end(), [](double a, double b) { return !(b > a); });
-      if (back != s.end()) document_.error(place, fmt::format("`s` of line `{}` must increase from row to row", name), fmt::format("not after {:g} m", *back));
+      if (back != s.end())
+        document_.error(place, fmt::format("`s` of line `{}` must increase from row to row", name), fmt::format("not after {:g} m", *back));
       if (line) coverage(place, *line, s.front(), s.back());
     }
     for (const LineSpec& line : scene_.lines) {

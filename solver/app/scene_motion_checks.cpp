@@ -9,9 +9,9 @@
 namespace hawser {
 namespace {
 
-constexpr double largest_strain = 0.5;        // at t = 0, between held ends
-constexpr double straight_tolerance = 1e-6;   // of the length: chord of an unstrained start
-constexpr double stretch_margin = 1.02;       // of the length, where a line might reach the seabed
+constexpr double largest_strain = 0.5;       // at t = 0, between held ends
+constexpr double straight_tolerance = 1e-6;  // of the length: chord of an unstrained start
+constexpr double stretch_margin = 1.02;      // of the length, where a line might reach the seabed
 
 /// How far a point can go in the run.
 struct Excursion {
@@ -75,7 +75,8 @@ class MotionCheck {
     if (chord == 0.0) {
       document_.error(place, fmt::format("a straight start of line `{}` has no direction: its ends are at one place", line.name));
     } else if (!to.free && std::abs(chord - length) > straight_tolerance * length) {
-      document_.error(place, fmt::format("a straight start of line `{}` needs a free `to` end, or a length equal to the distance of its ends", line.name),
+      document_.error(place,
+                      fmt::format("a straight start of line `{}` needs a free `to` end, or a length equal to the distance of its ends", line.name),
                       fmt::format("length {:.9g} m, distance {:.9g} m", length, chord));
     }
   }

@@ -143,8 +143,8 @@ TimeForce read_time_force(TableReader& table, std::string_view key, const Kind& 
     shaped.duration = reader.number("duration", {kinds::time, positive});
   } else {
     for (const char* known : {"interpolation", "shape", "duration"}) reader.find(known);
-    table.error_at(key, fmt::format("`{}` must be [x, y, z], {{ table, interpolation }} or {{ {}, shape = \"sin2\", duration }}",
-                                    table.path_of(key), pulse));
+    table.error_at(
+        key, fmt::format("`{}` must be [x, y, z], {{ table, interpolation }} or {{ {}, shape = \"sin2\", duration }}", table.path_of(key), pulse));
   }
   reader.finish();
   return out;

@@ -104,8 +104,7 @@ const toml::source_region& Document::region_of(const KeyPath& key) const {
   return node->source();
 }
 
-void Document::report(Severity severity, const toml::source_region& region, std::string message, std::string label,
-                      std::vector<std::string> notes) {
+void Document::report(Severity severity, const toml::source_region& region, std::string message, std::string label, std::vector<std::string> notes) {
   Diagnostic d;
   d.severity = severity;
   d.message = std::move(message);

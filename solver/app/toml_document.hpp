@@ -4,7 +4,6 @@
 // message can point at it whoever finds the fault. Keys are named by their dotted path, as in --set: `lines.a.sections.0`.
 #pragma once
 
-
 #include <string>
 #include <string_view>
 #include <utility>

@@ -1,7 +1,6 @@
 // --set key.path=value: one value of a parsed scene replaced or added.
 #pragma once
 
-
 #include <optional>
 #include <string>
 #include <string_view>

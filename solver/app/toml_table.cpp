@@ -44,13 +44,19 @@ bool within(double value, const Range& range) { return value <= range.high && (r
 
 std::string type_of(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "a list";
-    case toml::node_type::string: return "a string";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a string";
     case toml::node_type::integer:
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "a boolean";
-    default: return "a date or time";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
   }
 }
 
@@ -107,9 +113,7 @@ double TableReader::number(std::string_view key, const Quantity& quantity) {
   return node == nullptr ? nan : read_number(document_, *node, quantity, path_of(key));
 }
 
-double TableReader::number(std::string_view key, const Quantity& quantity, double fallback) {
-  return maybe_number(key, quantity).value_or(fallback);
-}
+double TableReader::number(std::string_view key, const Quantity& quantity, double fallback) { return maybe_number(key, quantity).value_or(fallback); }
 
 std::optional<double> TableReader::maybe_number(std::string_view key, const Quantity& quantity) {
   const toml::node* node = find(key);

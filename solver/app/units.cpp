@@ -63,10 +63,12 @@ struct Prefix {
 constexpr std::array prefixes{Prefix{"n", 1e-9}, Prefix{"u", 1e-6}, Prefix{"µ", 1e-6}, Prefix{"m", 1e-3}, Prefix{"c", 1e-2},
                               Prefix{"d", 1e-1}, Prefix{"k", 1e3},  Prefix{"M", 1e6},  Prefix{"G", 1e9}};
 
-constexpr std::array all_kinds{kinds::number,           kinds::length,          kinds::area,           kinds::volume,           kinds::time,
-                               kinds::speed,            kinds::acceleration,    kinds::angle,          kinds::mass,             kinds::mass_per_length,
-                               kinds::density,          kinds::force,           kinds::force_per_length, kinds::force_per_area, kinds::force_times_time,
-                               kinds::damping_per_area, kinds::moment,          kinds::bending_stiffness};
+constexpr std::array all_kinds{kinds::number,           kinds::length,         kinds::area,
+                               kinds::volume,           kinds::time,           kinds::speed,
+                               kinds::acceleration,     kinds::angle,          kinds::mass,
+                               kinds::mass_per_length,  kinds::density,        kinds::force,
+                               kinds::force_per_length, kinds::force_per_area, kinds::force_times_time,
+                               kinds::damping_per_area, kinds::moment,         kinds::bending_stiffness};
 
 struct Unit {
   double factor = 1.0;
@@ -98,8 +100,7 @@ std::string unknown_unit(std::string_view name) {
 /// Rewrites the characters people paste: superscripts, the middle dot, "**".
 std::string plain(std::string_view text) {
   std::string out(text);
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> from_to{
-      {{"²", "2"}, {"³", "3"}, {"·", " "}, {"**", "^"}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> from_to{{{"²", "2"}, {"³", "3"}, {"·", " "}, {"**", "^"}}};
   for (const auto& [from, to] : from_to) {
     for (std::size_t at = out.find(from); at != std::string::npos; at = out.find(from, at + to.size())) out.replace(at, from.size(), to);
   }

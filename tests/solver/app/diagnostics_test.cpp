@@ -51,9 +51,7 @@ TEST(Diagnostics, ShowAtMostFifty) {
   EXPECT_TRUE(std::string(many.what()).ends_with("60 errors. Nothing was run."));
 }
 
-TEST(Diagnostics, NeedNoPlace) {
-  EXPECT_STREQ(InputError("no scene file given").what(), "error: no scene file given\n\n1 error. Nothing was run.");
-}
+TEST(Diagnostics, NeedNoPlace) { EXPECT_STREQ(InputError("no scene file given").what(), "error: no scene file given\n\n1 error. Nothing was run."); }
 
 TEST(DidYouMean, FindsSlipsOfTheFinger) {
   const std::vector<std::string> keys{"length", "elements", "type", "mass", "EA", "EI"};

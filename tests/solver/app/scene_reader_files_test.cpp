@@ -156,9 +156,9 @@ TEST_F(ReaderFiles, OfStartsMustKnowTheLines) {
 }
 
 TEST_F(ReaderOverrides, SetAnyKey) {
-  const Scene scene = read(sound_scene, {"lines.a.sections.0.elements=77", "lines.a.sections.0.length=\"0.2 km\"", "line_types.rope.EA = 5 MN",
-                                         "solve.linear_solver=band", "points.end.position=[1, 2, -80]",
-                                         "environment.current=[[0, 1, 0]]", "environment.current.0.1=2"});
+  const Scene scene = read(
+      sound_scene, {"lines.a.sections.0.elements=77", "lines.a.sections.0.length=\"0.2 km\"", "line_types.rope.EA = 5 MN", "solve.linear_solver=band",
+                    "points.end.position=[1, 2, -80]", "environment.current=[[0, 1, 0]]", "environment.current.0.1=2"});
   EXPECT_EQ(scene.lines[0].sections[0].elements, 77);
   EXPECT_EQ(scene.lines[0].sections[0].length, 200.0);
   EXPECT_EQ(scene.line_types[0].EA, 5e6);

@@ -53,7 +53,8 @@ TEST_F(Reader, KeepsTheTextThePathAndThePlaces) {
 }
 
 TEST_F(Reader, KeepsTheOrderOfTheFile) {
-  const Scene scene = read(with(sound_scene, "[points.top]", "[points.zulu]\nposition = [0, 0, 0]\n[points.alfa]\nposition = [0, 0, 0]\n[points.top]"));
+  const Scene scene =
+      read(with(sound_scene, "[points.top]", "[points.zulu]\nposition = [0, 0, 0]\n[points.alfa]\nposition = [0, 0, 0]\n[points.top]"));
   ASSERT_EQ(scene.points.size(), 4u);
   EXPECT_EQ(scene.points[0].name, "zulu");
   EXPECT_EQ(scene.points[1].name, "alfa");
@@ -113,9 +114,10 @@ a = [0, "20 m", 100]
 }
 
 TEST_F(Reader, ReadsMotions) {
-  const Scene scene = read(with(sound_scene, "[points.end]",
-                                "motion = { velocity = [\"2 kn\", 0, 0], ramp = 10, harmonics = [{ direction = [0, 0, 1], amplitude = 2.5, period = 10, phase = 90 }] }\n"
-                                "[points.end]"));
+  const Scene scene = read(
+      with(sound_scene, "[points.end]",
+           "motion = { velocity = [\"2 kn\", 0, 0], ramp = 10, harmonics = [{ direction = [0, 0, 1], amplitude = 2.5, period = 10, phase = 90 }] }\n"
+           "[points.end]"));
   const MotionSpec& motion = *scene.points[0].motion;
   EXPECT_DOUBLE_EQ(motion.velocity.x(), 2 * 1852.0 / 3600.0);
   EXPECT_EQ(motion.ramp, 10.0);
@@ -162,7 +164,8 @@ TEST_F(Reader, MeasuresTheReachOfAHeldLineByTheEllipseOfItsEnds) {
 }
 
 TEST_F(Reader, AcceptsSteadyTowAndStartsFromRest) {
-  const std::string held = with(sound_scene, "free = true\nposition = [0.0, 0.0, -90.0]\nmass = 100.0", "position = [60.0, 0.0, 0.0]\nmotion = { velocity = [1, 0, 0] }");
+  const std::string held =
+      with(sound_scene, "free = true\nposition = [0.0, 0.0, -90.0]\nmass = 100.0", "position = [60.0, 0.0, 0.0]\nmotion = { velocity = [1, 0, 0] }");
   EXPECT_EQ(errors(with(held, "[points.end]", "motion = { velocity = [1, 0, 0] }\n[points.end]")), "");
   EXPECT_NE(errors(with(held, "[points.end]", "motion = { velocity = [1, 0, 0], ramp = 5 }\n[points.end]")), "");
   EXPECT_EQ(errors(with(with(held, "motion = { velocity = [1, 0, 0] }", "motion = { velocity = [1, 0, 0], ramp = 9 }"), "[points.end]",
@@ -186,7 +189,8 @@ TEST_F(Reader, WarnsOfWhatIsSuspicious) {
       {"[dynamics]", "loads = [{ at = 50 }]\n[dynamics]", "`lines.a.loads.0` loads the line with nothing"},
       {"[dynamics]", "model = \"beam\"\n[dynamics]", "its line types have EI = 0"},
       {"[dynamics]", "from_end = { clamped = [0, 0, -1] }\n[dynamics]", "a clamp does nothing to a line without bending stiffness"},
-      {"[points.end]", "motion = { harmonics = [{ direction = [0, 0, 1], amplitude = 1, period = 5 }] }\n[points.end]", "starts with a jump of velocity"},
+      {"[points.end]", "motion = { harmonics = [{ direction = [0, 0, 1], amplitude = 1, period = 5 }] }\n[points.end]",
+       "starts with a jump of velocity"},
       {"[points.end]", "motion = { ramp = 5, harmonics = [{ direction = [0, 0, 0], amplitude = 1, period = 5 }] }\n[points.end]", "has no direction"},
   };
   for (const Case& c : cases) {
