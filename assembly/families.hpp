@@ -1,8 +1,11 @@
 // Families: the compile-time lists of shapes and terms (architecture rules 4 and 6).
 //
-// A shape writes the centreline of an element in the vectors y = (r0, d) or (r0, d, r0', r1') with d = (r1 - r0)/l, so that
-// r1 - r0 is formed before anything large is multiplied, and translations never enter the strains:
-//   r(xi) = r0 + l sum_j rho_j y_j,   a = r' = sum_j A_j y_j,   l b = l r'' = sum_j B_j y_j,      j >= 1
+// A shape writes the centreline of an element in its symmetric and antisymmetric modes about the middle, eta = xi - 1/2:
+//   y = (r0 + r1, r1 - r0)                          bar
+//   y = (r0 + r1, r1 - r0, r0' + r1', r1' - r0')    cable, beam (cubic Hermite)
+//   r = sum_j R_j(eta) y_j,   a = r' = sum_j A_j y_j,   b = r'' = sum_j B_j y_j
+// Each R_j is even or odd in eta, so the pair of Gauss points +-g needs only the sum and the difference of what the terms
+// answer there. r1 - r0 is formed before anything large is multiplied, and translations never enter the strains.
 // Quadrature: three Gauss points; the middle one is also the middle Lobatto point of the axial rule (weight 2/3; bar: 1).
 #pragma once
 
@@ -13,33 +16,57 @@
 
 namespace hawser {
 
-inline constexpr int gauss_points = 3;
-inline constexpr double gauss_xi[gauss_points] = {0.11270166537925831, 0.5, 0.88729833462074169};
-inline constexpr double gauss_weight[gauss_points] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+inline constexpr double gauss_eta = 0.38729833462074169;      // sqrt(0.15)
+inline constexpr double gauss_outer_weight = 5.0 / 18.0, gauss_middle_weight = 8.0 / 18.0;
+inline constexpr double gauss_xi[3] = {0.5 - gauss_eta, 0.5, 0.5 + gauss_eta};
+inline constexpr double gauss_weight[3] = {gauss_outer_weight, gauss_middle_weight, gauss_outer_weight};
 
-/// Cubic Hermite, y = (r0, d, r0', r1'): cable and beam.
+enum class Channel { r, a, b };
+
+/// Cubic Hermite: cable and beam. Factors of l: R_j l for the slopes' modes, A_j/l and B_j/l^2 for r1 - r0, B_j/l for the slopes'.
 struct HermiteShape {
-  static constexpr int vectors = 4;        // of y
-  static constexpr int node_vectors = 2;   // r, r'
-  static constexpr double middle_weight = 2.0 / 3.0;  // of the axial rule at xi = 1/2
+  static constexpr int modes = 4;
+  static constexpr int node_vectors = 2;              // r, r'
+  static constexpr double middle_weight = 2.0 / 3.0;  // of the axial rule at eta = 0
   static constexpr double end_weight = 1.0 / 6.0;     // at each node
 
-  static constexpr double rho(int j, double x) { return j == 1 ? x * x * (3 - 2 * x) : j == 2 ? x * (1 - x) * (1 - x) : j == 3 ? x * x * (x - 1) : 0; }
-  static constexpr double A(int j, double x) { return j == 1 ? 6 * x * (1 - x) : j == 2 ? (1 - x) * (1 - 3 * x) : j == 3 ? x * (3 * x - 2) : 0; }
-  static constexpr double B(int j, double x) { return j == 1 ? 6 - 12 * x : j == 2 ? 6 * x - 4 : j == 3 ? 6 * x - 2 : 0; }
+  static constexpr bool even(int j) { return j == 0 || j == 3; }  // R_j; B_j has the same parity, A_j the other one
+  static constexpr double coefficient(Channel channel, int j, double x) {
+    switch (channel) {
+      case Channel::r: return j == 0 ? 0.5 : j == 1 ? x * (1.5 - 2 * x * x) : j == 2 ? x * (x * x - 0.25) : 0.5 * x * x - 0.125;
+      case Channel::a: return j == 0 ? 0.0 : j == 1 ? 1.5 - 6 * x * x : j == 2 ? 3 * x * x - 0.25 : x;
+      default: return j == 0 ? 0.0 : j == 1 ? -12 * x : j == 2 ? 6 * x : 1.0;
+    }
+  }
 };
 
-/// Straight, y = (r0, d): bar.
+/// Straight: bar.
 struct StraightShape {
-  static constexpr int vectors = 2;
+  static constexpr int modes = 2;
   static constexpr int node_vectors = 1;  // r
   static constexpr double middle_weight = 1.0;
   static constexpr double end_weight = 0.0;
 
-  static constexpr double rho(int j, double x) { return j == 1 ? x : 0; }
-  static constexpr double A(int j, double) { return j == 1 ? 1 : 0; }
-  static constexpr double B(int, double) { return 0; }
+  static constexpr bool even(int j) { return j == 0; }
+  static constexpr double coefficient(Channel channel, int j, double x) {
+    switch (channel) {
+      case Channel::r: return j == 0 ? 0.5 : x;
+      case Channel::a: return j == 0 ? 0.0 : 1.0;
+      default: return 0.0;
+    }
+  }
 };
+
+/// Power of l that belongs to a coefficient of mode j.
+constexpr int length_power(Channel channel, int j) {
+  const int slope = j >= 2 ? 1 : 0;
+  return channel == Channel::r ? slope : channel == Channel::a ? slope - 1 : slope - 2;
+}
+
+template <class Shape>
+constexpr bool is_even(Channel channel, int j) {
+  return Shape::even(j) != (channel == Channel::a);
+}
 
 /// A family: a shape and the terms that act at its Gauss points beside the axial one. Inertia and weight are closed forms.
 template <class ShapeOf, class... Terms>

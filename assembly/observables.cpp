@@ -14,28 +14,32 @@ namespace {
 
 Vec3 to_vec(const V3<double>& x) { return {x[0], x[1], x[2]}; }
 
-/// Geometry of one element in Eigen vectors: y = (r0, d, r0', r1') of a nodal quantity, evaluated at xi.
+/// A nodal quantity inside one element, at xi in [0, 1].
 class Interpolation {
  public:
-  Interpolation(Family family, double length, const Nodal<double>& n) : family_(family), length_(length) {
-    y_[0] = to_vec(n.r0);
-    y_[1] = (to_vec(n.r1) - y_[0]) / length;
-    y_[2] = to_vec(n.s0);
-    y_[3] = to_vec(n.s1);
+  Interpolation(Family family, double length, const Nodal<double>& n) : bar_(family == Family::bar), length_(length) {
+    y_[0] = to_vec(n.r0) + to_vec(n.r1);
+    y_[1] = to_vec(n.r1) - to_vec(n.r0);
+    y_[2] = to_vec(n.s0) + to_vec(n.s1);
+    y_[3] = to_vec(n.s1) - to_vec(n.s0);
   }
 
-  Vec3 value(double xi) const { return y_[0] + length_ * sum(&HermiteShape::rho, &StraightShape::rho, xi); }
-  Vec3 slope(double xi) const { return sum(&HermiteShape::A, &StraightShape::A, xi); }
-  Vec3 second(double xi) const { return sum(&HermiteShape::B, &StraightShape::B, xi) / length_; }
+  Vec3 value(double xi) const { return sum(Channel::r, xi); }
+  Vec3 slope(double xi) const { return sum(Channel::a, xi); }
+  Vec3 second(double xi) const { return sum(Channel::b, xi); }
 
  private:
-  using Coefficient = double (*)(int, double);
-  Vec3 sum(Coefficient hermite, Coefficient straight, double xi) const {
-    if (family_ == Family::bar) return straight(1, xi) * y_[1];
-    return hermite(1, xi) * y_[1] + hermite(2, xi) * y_[2] + hermite(3, xi) * y_[3];
+  Vec3 sum(Channel channel, double xi) const {
+    return bar_ ? sum_of(Coefficients<StraightShape, double>(xi - 0.5, length_, 1.0 / length_)[channel], 2)
+                : sum_of(Coefficients<HermiteShape, double>(xi - 0.5, length_, 1.0 / length_)[channel], 4);
+  }
+  Vec3 sum_of(const double* c, int modes) const {
+    Vec3 x = c[0] * y_[0];
+    for (int j = 1; j < modes; ++j) x += c[j] * y_[j];
+    return x;
   }
 
-  Family family_;
+  bool bar_;
   double length_;
   Vec3 y_[4];
 };

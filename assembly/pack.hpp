@@ -9,6 +9,8 @@
 #include <immintrin.h>
 #endif
 
+#include <utility>
+
 #include "assembly/small.hpp"
 
 namespace hawser {
@@ -68,5 +70,34 @@ struct Pack {
     return r;
   }
 };
+
+/// The lanes of `before`'s last and `now`'s first W - 1: what each lane's left neighbour holds.
+template <int W, int... lane>
+HAWSER_INLINE Pack<W> shifted(const Pack<W>& before, const Pack<W>& now, std::integer_sequence<int, lane...>) {
+  return Pack<W>(__builtin_shufflevector(before.v, now.v, (W - 1 + lane)...));
+}
+template <int W>
+HAWSER_INLINE Pack<W> shifted(const Pack<W>& before, const Pack<W>& now) {
+  return shifted(before, now, std::make_integer_sequence<int, W>{});
+}
+
+/// One stage of the transpose: swaps the off-diagonal s x s blocks of rows i and i + s.
+template <int s, int W, int... lane>
+HAWSER_INLINE void swap_blocks(Pack<W>& a, Pack<W>& b, std::integer_sequence<int, lane...>) {
+  const auto low = __builtin_shufflevector(a.v, b.v, ((lane & s) ? W + lane - s : lane)...);
+  const auto high = __builtin_shufflevector(a.v, b.v, ((lane & s) ? W + lane : lane + s)...);
+  a.v = low;
+  b.v = high;
+}
+
+template <int W, int s = 1>
+HAWSER_INLINE void transpose(Pack<W> (&rows)[W]) {
+  if constexpr (s < W) {
+#pragma GCC unroll 8
+    for (int i = 0; i < W; ++i)
+      if (!(i & s)) swap_blocks<s>(rows[i], rows[i + s], std::make_integer_sequence<int, W>{});
+    transpose<W, 2 * s>(rows);
+  }
+}
 
 }  // namespace hawser

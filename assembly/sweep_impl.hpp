@@ -73,45 +73,80 @@ struct NodalAxial {
   }
 };
 
-/// Results of W elements, turned from lanes into blocks: t[row][lane], blocks column-major.
+/// What the pack before left at its right nodes; only the last lane is read.
 template <int B, int W>
-struct PackResult {
-  alignas(64) double f[2][B][W];
-  alignas(64) double K[2][2][B * B][W];
-
-  template <Want want, class Shape>
-  HAWSER_INLINE void store(const ElementResult<Shape, Pack<W>>& r) {
-    constexpr int n = B / 3;  // vectors a node
-    for (int end = 0; end < 2; ++end)
-      for (int i = 0; i < n; ++i)
-        for (int c = 0; c < 3; ++c) r.f[n * end + i][c].store(f[end][3 * i + c]);
-    if constexpr (want == Want::tangent)
-      for (int ea = 0; ea < 2; ++ea)
-        for (int eb = 0; eb < 2; ++eb)
-          for (int i = 0; i < n; ++i)
-            for (int j = 0; j < n; ++j)
-              for (int c = 0; c < 9; ++c) r.K[n * ea + i][n * eb + j].m[c].store(K[ea][eb][3 * i + c % 3 + B * (3 * j + c / 3)]);
-  }
-};
-
-/// What the element before a node adds to it.
-template <int B>
 struct Running {
-  double f[B], K[B * B];
+  Pack<W> f[B], K[B * B];
 };
 
-template <Want want, int B>
-HAWSER_INLINE void write_node(const SweepLine& line, int node, const double* f, const double* K, const Running<B>& before, const NodalAxial& axial,
-                              int local) {
-  double* r = line.r + B * node;
-  for (int c = 0; c < B; ++c) r[c] = f[c] + before.f[c];
-  if constexpr (B == 6)
-    for (int c = 0; c < 3; ++c) r[3 + c] += axial.f[c][local];
+/// Row of the column-major B x B block for component c of the 3 x 3 block (i, j).
+template <int B>
+constexpr int block_row(int i, int j, int c) {
+  return 3 * i + c % 3 + B * (3 * j + c / 3);
+}
+
+/// The nodal values D, U, L of W nodes, lanes = nodes; D gathers both elements of a node and its axial term.
+template <class Shape, int W>
+HAWSER_INLINE void fill_rows(const ElementResult<Shape, Pack<W>>& r, const NodalAxial& axial, int e, Running<3 * Shape::node_vectors, W>& before,
+                             Pack<W>* rows) {
+  constexpr int n = Shape::node_vectors, B = 3 * n;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+#pragma GCC unroll 1
+      for (int c = 0; c < 9; ++c) {
+        const int row = block_row<B>(i, j, c);
+        const Pack<W> right = r.K[n + i][n + j].m[c];
+        Pack<W> diagonal = r.K[i][j].m[c] + shifted(before.K[row], right);
+        if (i == 1 && j == 1) diagonal = diagonal + Pack<W>::load(&axial.K[c][e]);
+        before.K[row] = right;
+        rows[row] = diagonal;
+        rows[B * B + row] = r.K[i][n + j].m[c];
+        rows[2 * B * B + row] = r.K[n + i][j].m[c];
+      }
+}
+
+/// Writes `count` rows held lane by lane as `lanes` contiguous runs of `count` doubles.
+template <int count, int W>
+HAWSER_INLINE void store_transposed(const Pack<W>* rows, double* to, int lanes) {
+  constexpr int whole = count / W * W;
+  if (lanes == W) {
+#pragma GCC unroll 1
+    for (int t = 0; t < whole; t += W) {
+      Pack<W> tile[W];
+      for (int k = 0; k < W; ++k) tile[k] = rows[t + k];
+      transpose<W>(tile);
+      for (int k = 0; k < W; ++k) tile[k].store(to + static_cast<long>(count) * k + t);
+    }
+  }
+  for (int t = lanes == W ? whole : 0; t < count; ++t)
+    for (int k = 0; k < lanes; ++k) to[static_cast<long>(count) * k + t] = rows[t].v[k];
+}
+
+template <class Shape, int W>
+HAWSER_INLINE void write_residual(const ElementResult<Shape, Pack<W>>& r, const NodalAxial& axial, int e, int lanes,
+                                  Running<3 * Shape::node_vectors, W>& before, double* to) {
+  constexpr int n = Shape::node_vectors, B = 3 * n;
+  Pack<W> rows[B];
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c) {
+      const Pack<W> right = r.f[n + i][c];
+      rows[3 * i + c] = r.f[i][c] + shifted(before.f[3 * i + c], right);
+      if (i == 1) rows[3 * i + c] = rows[3 * i + c] + Pack<W>::load(&axial.f[c][e]);
+      before.f[3 * i + c] = right;
+    }
+  store_transposed<B, W>(rows, to, lanes);
+}
+
+/// The end node of a line has no element of its own.
+template <Want want, int B, int W>
+HAWSER_INLINE void write_end(const SweepLine& line, const Running<B, W>& before, const NodalAxial& axial, int local, int lane) {
+  double* r = line.r + static_cast<long>(B) * line.elements;
+  for (int c = 0; c < B; ++c) r[c] = before.f[c].v[lane] + (c < 3 ? 0.0 : axial.f[c % 3][local]);
   if constexpr (want == Want::tangent) {
-    double* D = line.blocks + 3 * B * B * static_cast<long>(node);
-    for (int c = 0; c < B * B; ++c) D[c] = K[c] + before.K[c];
+    double* D = line.blocks + 3L * B * B * line.elements;
+    for (int c = 0; c < B * B; ++c) D[c] = before.K[c].v[lane];
     if constexpr (B == 6)
-      for (int c = 0; c < 9; ++c) D[3 + c % 3 + 6 * (3 + c / 3)] += axial.K[c][local];
+      for (int c = 0; c < 9; ++c) D[block_row<6>(1, 1, c)] += axial.K[c][local];
   }
 }
 
@@ -126,37 +161,29 @@ void sweep_panel(const SweepLine& line, int panel) {
   state.gather(line, first, count + 1);
   NodalAxial axial;
   if constexpr (B == 6) axial.compute<want, W>(line, state, first, count + 1);
-  Running<B> before{};
-  PackResult<B, W> pack;
-  double f[B], K[B * B] = {};
+  Running<B, W> before;
+  for (S& x : before.f) x = S(0.0);
+  for (S& x : before.K) x = S(0.0);
+  int lanes = W;
   for (int e = 0; e < count; e += W) {
+    lanes = count - e < W ? count - e : W;
     const ElementState<S> x{state.template nodal<W>(0, e), state.template nodal<W>(1, e), state.template nodal<W>(2, e)};
     ElementResult<Shape, S> result;
     interior<Family, want>(x, load_properties<W>(line, first + e), line.weights, line.current, result);
-    pack.template store<want>(result);
-    const int lanes = count - e < W ? count - e : W;
-    for (int k = 0; k < lanes; ++k) {
-      for (int c = 0; c < B; ++c) f[c] = pack.f[0][c][k];
-      if constexpr (want == Want::tangent)
-        for (int c = 0; c < B * B; ++c) K[c] = pack.K[0][0][c][k];
-      write_node<want, B>(line, first + e + k, f, K, before, axial, e + k);
-      for (int c = 0; c < B; ++c) before.f[c] = pack.f[1][c][k];
-      if constexpr (want == Want::tangent) {
-        double* U = line.blocks + 3 * B * B * static_cast<long>(first + e + k) + B * B;
-        for (int c = 0; c < B * B; ++c) U[c] = pack.K[0][1][c][k];
-        for (int c = 0; c < B * B; ++c) U[B * B + c] = pack.K[1][0][c][k];
-        for (int c = 0; c < B * B; ++c) before.K[c] = pack.K[1][1][c][k];
-      }
+    write_residual(result, axial, e, lanes, before, line.r + static_cast<long>(B) * (first + e));
+    if constexpr (want == Want::tangent) {
+      Pack<W> rows[3 * B * B];
+      fill_rows(result, axial, e, before, rows);
+      store_transposed<3 * B * B, W>(rows, line.blocks + 3L * B * B * (first + e), lanes);
     }
   }
   if (first + count == line.elements) {
-    const Running<B> nothing{};
-    write_node<want, B>(line, line.elements, before.f, before.K, nothing, axial, count);
+    write_end<want, B, W>(line, before, axial, count, lanes - 1);
   } else {
     double* carry = line.carry + static_cast<long>(panel) * carry_size;
-    for (int c = 0; c < B; ++c) carry[c] = before.f[c];
+    for (int c = 0; c < B; ++c) carry[c] = before.f[c].v[lanes - 1];
     if constexpr (want == Want::tangent)
-      for (int c = 0; c < B * B; ++c) carry[B + c] = before.K[c];
+      for (int c = 0; c < B * B; ++c) carry[B + c] = before.K[c].v[lanes - 1];
   }
 }
 

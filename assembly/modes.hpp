@@ -1,0 +1,285 @@
+// modes: an element in its symmetric and antisymmetric modes (families.hpp), and back to its nodes.
+//
+// Kinematics at a Gauss point are sums over modes, split into parts even and odd in eta. The outer pair of points enters
+// through the sum and the difference of what the terms answer there: block (i, j) of the tangent takes, for each pair of
+// channels, the one that its coefficients' product leaves (even or odd).
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include "assembly/families.hpp"
+
+namespace hawser {
+
+/// Nodal vectors of an element: position-like quantities x = r, r_dot or r_ddot of both nodes. Slopes are unused by the bar.
+template <class S>
+struct Nodal {
+  V3<S> r0, s0, r1, s1;
+};
+
+template <class S>
+struct ElementState {
+  Nodal<S> q, v, a;
+};
+
+/// Steady current, component-wise linear in z between rows, constant beyond; rows ascending in z.
+struct CurrentTable {
+  int rows = 0;
+  const double *z = nullptr, *ux = nullptr, *uy = nullptr;
+};
+
+/// Forces on and tangent between the node vectors, in the order r0, s0, r1, s1 (bar: r0, r1).
+template <class Shape, class S>
+struct ElementResult {
+  static constexpr int vectors = 2 * Shape::node_vectors;
+  V3<S> f[vectors];
+  M3<S> K[vectors][vectors];
+};
+
+template <class S>
+HAWSER_INLINE void current_at(const CurrentTable& table, const S& z, V3<S>& u, V3<S>& gradient) {
+  u = zero_vector<S>();
+  gradient = zero_vector<S>();
+  if (table.rows == 0) return;
+  u[0] = S(table.ux[0]);
+  u[1] = S(table.uy[0]);
+  for (int k = 0; k + 1 < table.rows; ++k) {
+    const double dz = table.z[k + 1] - table.z[k];
+    const S depth = z - S(table.z[k]);
+    const S inside = minimum(maximum(depth, S(0.0)), S(dz));
+    const S slope_x((table.ux[k + 1] - table.ux[k]) / dz), slope_y((table.uy[k + 1] - table.uy[k]) / dz);
+    u[0] = u[0] + slope_x * inside;
+    u[1] = u[1] + slope_y * inside;
+    const S on = select(depth > S(0.0), select(depth < S(dz), S(1.0), S(0.0)), S(0.0));
+    gradient[0] = gradient[0] + slope_x * on;
+    gradient[1] = gradient[1] + slope_y * on;
+  }
+}
+
+/// The modes of a nodal quantity.
+template <class Shape, class S>
+HAWSER_INLINE void to_modes(const Nodal<S>& n, V3<S>* y) {
+  y[0] = n.r0 + n.r1;
+  y[1] = n.r1 - n.r0;
+  if constexpr (Shape::node_vectors == 2) {
+    y[2] = n.s0 + n.s1;
+    y[3] = n.s1 - n.s0;
+  }
+}
+
+/// R_j, A_j, B_j at one eta, with their powers of l.
+template <class Shape, class S>
+struct Coefficients {
+  S at[3][Shape::modes];
+  HAWSER_INLINE const S* operator[](Channel channel) const { return at[static_cast<int>(channel)]; }
+
+  HAWSER_INLINE Coefficients(double eta, const S& l, const S& inverse_l) {
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < Shape::modes; ++j) {
+        const Channel channel = static_cast<Channel>(k);
+        const S c(Shape::coefficient(channel, j, eta));
+        const int power = length_power(channel, j);
+        at[k][j] = power == 1 ? c * l : power == 0 ? c : power == -1 ? c * inverse_l : c * inverse_l * inverse_l;
+      }
+  }
+};
+
+/// The part of sum_j c_j y_j that is even (or odd) in eta.
+template <class Shape, Channel channel, bool even, class S>
+HAWSER_INLINE V3<S> mode_sum(const Coefficients<Shape, S>& c, const V3<S>* y) {
+  V3<S> x = zero_vector<S>();
+  for (int j = channel == Channel::r ? 0 : 1; j < Shape::modes; ++j)
+    if (is_even<Shape>(channel, j) == even) add_scaled(x, c[channel][j], y[j]);
+  return x;
+}
+
+/// Sum and difference of two responses: [0] serves even products of coefficients, [1] odd ones.
+template <class S>
+struct PairOf {
+  Response<S> part[2];
+};
+
+template <class Family, Want want, class S>
+HAWSER_INLINE PairOf<S> sum_and_difference(const Response<S>& plus, const Response<S>& minus, const S& weight) {
+  PairOf<S> out;
+  const auto split = [&](auto member) __attribute__((always_inline)) {
+    constexpr int count = sizeof(plus.*member) / sizeof(S);
+    const S *p = reinterpret_cast<const S*>(&(plus.*member)), *m = reinterpret_cast<const S*>(&(minus.*member));
+    S *sum = reinterpret_cast<S*>(&(out.part[0].*member)), *difference = reinterpret_cast<S*>(&(out.part[1].*member));
+#pragma GCC unroll 1
+    for (int c = 0; c < count; ++c) {
+      sum[c] = weight * (p[c] + m[c]);
+      difference[c] = weight * (p[c] - m[c]);
+    }
+  };
+  if constexpr (Family::wet) split(&Response<S>::Fr);
+  if constexpr (Family::bends) {
+    split(&Response<S>::Fa);
+    split(&Response<S>::Fb);
+  }
+  if constexpr (want == Want::tangent && Family::wet) {
+    split(&Response<S>::Jrr);
+    split(&Response<S>::Jra);
+  }
+  if constexpr (want == Want::tangent && Family::bends) {
+    split(&Response<S>::Jaa);
+    split(&Response<S>::Jab);
+    split(&Response<S>::Jbb);
+  }
+  return out;
+}
+
+template <class Shape, class S>
+struct Accumulated {
+  V3<S> g[Shape::modes];
+  M3<S> G[Shape::modes][Shape::modes];
+};
+
+inline constexpr int transposed_index[9] = {0, 3, 6, 1, 4, 7, 2, 5, 8};
+
+template <int n, class F>
+HAWSER_INLINE void static_for(F&& f) {
+  [&]<int... i>(std::integer_sequence<int, i...>) __attribute__((always_inline)) { (f(std::integral_constant<int, i>{}), ...); }
+  (std::make_integer_sequence<int, n>{});
+}
+
+/// Block (i, j) of the modes. Middle point: only coefficients even in eta are left. Outer pair: like parities take the sum, unlike
+/// ones the difference. The loop over the nine components stays a loop: unrolled blocks outgrow the instruction cache.
+template <class Family, int i, int j, class S>
+HAWSER_INLINE void mode_block(const Coefficients<typename Family::Shape, S>& outer, const Coefficients<typename Family::Shape, S>& centre,
+                              const PairOf<S>& pair, const Response<S>& middle, M3<S>& G) {
+  using Shape = typename Family::Shape;
+  constexpr bool Ri = Shape::even(i), Rj = Shape::even(j);  // A has the other parity, B the same
+  constexpr bool slopes = i > 0 && j > 0, wet = Family::wet, bends = Family::bends && slopes;
+  const Response<S>&same = pair.part[Ri == Rj ? 0 : 1], &other = pair.part[Ri == Rj ? 1 : 0];
+  const auto f = [&](const Coefficients<Shape, S>& c, Channel row, Channel column) __attribute__((always_inline)) { return c[row][i] * c[column][j]; };
+  const S o_rr = f(outer, Channel::r, Channel::r), o_ra = f(outer, Channel::r, Channel::a), o_aa = f(outer, Channel::a, Channel::a), o_ab = f(outer, Channel::a, Channel::b);
+  const S o_ba = f(outer, Channel::b, Channel::a), o_bb = f(outer, Channel::b, Channel::b);
+  const S m_rr = f(centre, Channel::r, Channel::r), m_ra = f(centre, Channel::r, Channel::a), m_aa = f(centre, Channel::a, Channel::a), m_ab = f(centre, Channel::a, Channel::b);
+  const S m_ba = f(centre, Channel::b, Channel::a), m_bb = f(centre, Channel::b, Channel::b);
+#pragma GCC unroll 1
+  for (int c = 0; c < 9; ++c) {
+    const int t = transposed_index[c];
+    S y(0.0);
+    if constexpr (wet) y = o_rr * same.Jrr.m[c];
+    if constexpr (wet && j > 0) y = y + o_ra * other.Jra.m[c];
+    if constexpr (bends) y = y + o_aa * same.Jaa.m[c] + o_bb * same.Jbb.m[c] + o_ab * other.Jab.m[c] + o_ba * other.Jab.m[t];
+    if constexpr (wet && Ri && Rj) y = y + m_rr * middle.Jrr.m[c];
+    if constexpr (wet && Ri && !Rj && j > 0) y = y + m_ra * middle.Jra.m[c];
+    if constexpr (slopes && !Ri && !Rj) y = y + m_aa * middle.Jaa.m[c];
+    if constexpr (bends && !Ri && Rj) y = y + m_ab * middle.Jab.m[c];
+    if constexpr (bends && Ri && !Rj) y = y + m_ba * middle.Jab.m[t];
+    if constexpr (bends && Ri && Rj) y = y + m_bb * middle.Jbb.m[c];
+    G.m[c] = y;
+  }
+}
+
+template <class Family, int j, class S>
+HAWSER_INLINE void mode_force(const Coefficients<typename Family::Shape, S>& outer, const Coefficients<typename Family::Shape, S>& centre,
+                              const PairOf<S>& pair, const Response<S>& middle, V3<S>& g) {
+  constexpr bool even = Family::Shape::even(j);
+  if constexpr (Family::wet) add_scaled(g, outer[Channel::r][j], pair.part[even ? 0 : 1].Fr);
+  if constexpr (Family::wet && even) add_scaled(g, centre[Channel::r][j], middle.Fr);
+  if constexpr (j > 0 && !even) add_scaled(g, centre[Channel::a][j], middle.Fa);
+  if constexpr (Family::bends && j > 0) {
+    add_scaled(g, outer[Channel::a][j], pair.part[even ? 1 : 0].Fa);
+    add_scaled(g, outer[Channel::b][j], pair.part[even ? 0 : 1].Fb);
+    if constexpr (even) add_scaled(g, centre[Channel::b][j], middle.Fb);
+  }
+}
+
+/// Kinematics of an element in its modes.
+template <class Shape, class S>
+struct ModeState {
+  V3<S> q[Shape::modes], v[Shape::modes], a[Shape::modes];
+};
+
+/// The point at sign * eta of the coefficients (sign +1 or -1); in the middle odd parts vanish.
+template <class Family, bool middle, class S>
+HAWSER_INLINE Point<S> make_point(const ModeState<typename Family::Shape, S>& y, const Coefficients<typename Family::Shape, S>& c, double sign,
+                                  const CurrentTable& current) {
+  using Shape = typename Family::Shape;
+  const auto at = [&]<Channel channel>(const V3<S>* modes) __attribute__((always_inline)) {
+    V3<S> x = mode_sum<Shape, channel, true>(c, modes);
+    if constexpr (!middle) add_scaled(x, S(sign), mode_sum<Shape, channel, false>(c, modes));
+    return x;
+  };
+  Point<S> p;
+  p.a = at.template operator()<Channel::a>(y.q);
+  set_tangent(p);
+  p.velocity_a = zero_vector<S>();
+  if constexpr (middle) p.velocity_a = at.template operator()<Channel::a>(y.v);
+  if constexpr (Family::bends) p.b = at.template operator()<Channel::b>(y.q);
+  if constexpr (Family::wet) {
+    current_at(current, at.template operator()<Channel::r>(y.q)[2], p.current, p.current_gradient);
+    p.velocity = at.template operator()<Channel::r>(y.v);
+    p.acceleration = at.template operator()<Channel::r>(y.a);
+  }
+  return p;
+}
+
+template <Want want, class S>
+HAWSER_INLINE void clear(Response<S>& at) {
+  at.Fr = at.Fa = at.Fb = zero_vector<S>();
+  if constexpr (want == Want::tangent) at.Jrr = at.Jra = at.Jaa = at.Jab = at.Jbb = zero_matrix<S>();
+}
+
+/// The middle point: the axial term with its own weight, the others with the Gauss weight, both already multiplied by l.
+template <class Family, Want want, class S>
+HAWSER_INLINE Response<S> middle_response(const Point<S>& p, const Properties<S>& e, const Weights& w) {
+  Response<S> at;
+  clear<want>(at);
+  Axial::add<want>(p, e, w, at);
+  // The axial rule weighs the middle by 2/3 (bar: 1), the Gauss rule by 4/9.
+  const S ratio(Family::Shape::middle_weight / gauss_middle_weight);
+  at.Fa = ratio * at.Fa;
+  if constexpr (want == Want::tangent)
+    for (int c = 0; c < 9; ++c) at.Jaa.m[c] = ratio * at.Jaa.m[c];
+  Family::template add_terms<want>(p, e, w, at);
+  const S weight = S(gauss_middle_weight) * e.length;
+  const auto scale = [&](auto& member) __attribute__((always_inline)) {
+    S* x = reinterpret_cast<S*>(&member);
+    for (unsigned c = 0; c < sizeof(member) / sizeof(S); ++c) x[c] = weight * x[c];
+  };
+  scale(at.Fa);
+  if constexpr (Family::wet) scale(at.Fr);
+  if constexpr (Family::bends) scale(at.Fb);
+  if constexpr (want == Want::tangent) {
+    scale(at.Jaa);
+    if constexpr (Family::wet) {
+      scale(at.Jrr);
+      scale(at.Jra);
+    }
+    if constexpr (Family::bends) {
+      scale(at.Jab);
+      scale(at.Jbb);
+    }
+  }
+  return at;
+}
+
+/// From modes to node vectors: r0 = y0 - y1, r1 = y0 + y1, r0' = y2 - y3, r1' = y2 + y3 of rows and columns.
+template <class Shape, Want want, class S>
+HAWSER_INLINE void nodal(const Accumulated<Shape, S>& sum, ElementResult<Shape, S>& out) {
+  constexpr int n = Shape::node_vectors;
+  for (int k = 0; k < n; ++k) {
+    out.f[k] = sum.g[2 * k] - sum.g[2 * k + 1];
+    out.f[n + k] = sum.g[2 * k] + sum.g[2 * k + 1];
+  }
+  if constexpr (want == Want::tangent)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+#pragma GCC unroll 1
+        for (int c = 0; c < 9; ++c) {
+          const S ee = sum.G[2 * i][2 * j].m[c], eo = sum.G[2 * i][2 * j + 1].m[c];
+          const S oe = sum.G[2 * i + 1][2 * j].m[c], oo = sum.G[2 * i + 1][2 * j + 1].m[c];
+          const S even = ee + oo, odd = eo + oe, even_difference = ee - oo, odd_difference = eo - oe;
+          out.K[i][j].m[c] = even - odd;
+          out.K[n + i][n + j].m[c] = even + odd;
+          out.K[i][n + j].m[c] = even_difference + odd_difference;
+          out.K[n + i][j].m[c] = even_difference - odd_difference;
+        }
+}
+
+}  // namespace hawser
