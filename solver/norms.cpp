@@ -9,6 +9,9 @@ namespace {
 
 using ConstVec3 = Eigen::Map<const Vec3>;
 
+/// The larger one, or the one that is not a number: nobody may take that for convergence.
+double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
+
 /// Calls f(line, node, |r part|, |r' part|, l) for every node, and for every joint with its inner unknowns as the r' part.
 template <class Function>
 void for_each_node(const Model& model, std::span<const double> x, Function f) {
@@ -31,8 +34,8 @@ void for_each_node(const Model& model, std::span<const double> x, Function f) {
 WorstNode worst_node(const Model& model, std::span<const double> r) {
   WorstNode worst;
   for_each_node(model, r, [&](int line, int node, double force, double moment, double l) {
-    const double value = std::max(force, moment / l);
-    if (value > worst.residual || !std::isfinite(value)) worst = {line, node, value, moment / l > force};
+    const double value = larger(force, moment / l);
+    if (value > worst.residual || (std::isnan(value) && !std::isnan(worst.residual))) worst = {line, node, value, moment / l > force};
   });
   return worst;
 }
@@ -40,8 +43,7 @@ WorstNode worst_node(const Model& model, std::span<const double> r) {
 double residual_norm(const Model& model, std::span<const double> r) {
   double norm = 0.0;
   for_each_node(model, r, [&](int, int, double force, double moment, double l) {
-    const double value = std::max(force, moment / l);
-    if (!(value <= norm)) norm = value;  // a NaN must win, so that nobody takes it for convergence
+    norm = larger(larger(force, moment / l), norm);
   });
   return norm;
 }
@@ -49,10 +51,9 @@ double residual_norm(const Model& model, std::span<const double> r) {
 IncrementSize increment_size(const Model& model, std::span<const double> d) {
   IncrementSize size;
   for_each_node(model, d, [&](int, int, double position, double slope, double l) {
-    if (!(position <= size.position)) size.position = position;
-    if (!(slope <= size.slope)) size.slope = slope;
-    const double scaled = std::max(position, l * slope);
-    if (!(scaled <= size.scaled)) size.scaled = scaled;
+    size.position = larger(position, size.position);
+    size.slope = larger(slope, size.slope);
+    size.scaled = larger(larger(position, l * slope), size.scaled);
   });
   return size;
 }

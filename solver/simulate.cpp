@@ -75,6 +75,9 @@ bool Run::advance(double t0, double t1, double nominal) {
     const StepReport step = scheme_.step(state_, control_.end_time(), h, control_.subdivided() ? floored : TangentFloor{});
     count(step);
     if (step.status == StepStatus::ok) {
+      if (counters().steps > 0) {
+        counters().largest_local_error = std::max(counters().largest_local_error, scheme_.local_error());
+      }
       ++counters().steps;
       counters().smallest_step = std::min(counters().smallest_step, h);
       counters().largest_residual = std::max(counters().largest_residual, step.residual);

@@ -61,10 +61,12 @@ StepReport GeneralizedAlpha::start(State& state) {
   system_.prescribe(trial_);
   // The residual is linear in qdd: the second solve only removes the rounding of the first.
   for (int pass = 0; pass < 2; ++pass) {
-    report.status = solve_increment({0.0, 0.0, 1.0}, {}, report);
+    report.status = linearize({0.0, 0.0, 1.0}, {}, report);
     if (report.status != StepStatus::ok) {
       return report;
     }
+    solve();
+    ++report.iterations;
     for (std::size_t i = 0; i < increment_.size(); ++i) {
       trial_.a[i] += increment_[i];
     }
@@ -78,49 +80,71 @@ StepReport GeneralizedAlpha::start(State& state) {
 
 StepReport GeneralizedAlpha::step(State& state, double t, double h, const TangentFloor& floor) {
   assert(h > 0.0);
-  const double beta_h = (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h);
-  const double gamma_h = alpha_.gamma / (alpha_.beta * h);
+  const TangentWeights weights{1.0, alpha_.gamma / (alpha_.beta * h), (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h)};
   predict(state, t, h);
-  follow_prescribed(gamma_h, beta_h);
-
+  follow_prescribed(weights);
   StepReport report;
-  const auto allowed = [this](const StepReport& r) { return r.modified_newton ? options_.max_modified_iterations : options_.max_iterations; };
-  const double floor_force = system_.roundoff_floor(state);
+  report.status = iterate(weights, floor, system_.roundoff_floor(state), report);
+  if (report.status == StepStatus::ok && turned_too_far(state)) {
+    report.status = StepStatus::not_converged;
+  }
+  if (report.status == StepStatus::ok) {
+    report.easy = report.iterations <= allowed_iterations(report) / 2;
+    accept(state, h);
+  }
+  return report;
+}
+
+/// Newton from the predicted state. The same factors once more contract the residual about as much as the last iteration
+/// did: where that is enough they are kept.
+StepStatus GeneralizedAlpha::iterate(const TangentWeights& weights, const TangentFloor& floor, double floor_force, StepReport& report) {
   const double wanted_length = tolerance_ * system_.reference_length();
   double previous = INFINITY;
-  while (report.iterations < allowed(report)) {
-    report.status = solve_increment({1.0, gamma_h, beta_h}, floor, report);
-    if (report.status != StepStatus::ok) {
-      return report;
+  bool keep = false;
+  while (report.iterations < allowed_iterations(report)) {
+    if (!keep) {
+      const StepStatus status = linearize(weights, floor, report);
+      if (status != StepStatus::ok) {
+        return status;
+      }
+      previous = measure(report).force;
     }
-    const double turn = system_.largest_turn(increment_);
-    const double factor = turn > largest_turn_of_iteration ? largest_turn_of_iteration / turn : 1.0;
-    for (std::size_t i = 0; i < increment_.size(); ++i) {
-      const double d = factor * increment_[i];
-      trial_.q[i] += d;
-      trial_.v[i] += gamma_h * d;
-      trial_.a[i] += beta_h * d;
-    }
+    solve();
+    ++report.iterations;
+    const bool whole = update(weights);
+    system_.residual(trial_, residual_);
+    ++report.residuals;
     const auto [force, reference] = measure(report);
     if (!std::isfinite(force)) {
-      report.status = StepStatus::not_finite;
-      return report;
+      return StepStatus::not_finite;
     }
-    const bool small = force <= std::max(tolerance_ * reference, floor_force) && system_.scaled_increment(increment_) <= wanted_length;
+    const double wanted_force = std::max(tolerance_ * reference, floor_force);
+    const bool small = force <= wanted_force && system_.scaled_increment(increment_) <= wanted_length;
     const bool at_floor = force <= floor_margin * floor_force && force > 0.5 * previous;
-    if (factor == 1.0 && (small || at_floor)) {
-      if (turned_too_far(state)) {
-        report.status = StepStatus::not_converged;
-        return report;
-      }
-      report.easy = report.iterations <= allowed(report) / 2;
-      accept(state, h);
-      return report;
+    if (whole && (small || at_floor)) {
+      return StepStatus::ok;
     }
+    keep = whole && force < previous && force * (force / previous) <= wanted_force;
     previous = force;
   }
-  report.status = StepStatus::not_converged;
-  return report;
+  return StepStatus::not_converged;
+}
+
+/// Adds the increment, or as much of it as may be taken at once: true where that is all of it.
+bool GeneralizedAlpha::update(const TangentWeights& weights) {
+  const double turn = system_.largest_turn(increment_);
+  const double factor = turn > largest_turn_of_iteration ? largest_turn_of_iteration / turn : 1.0;
+  for (std::size_t i = 0; i < increment_.size(); ++i) {
+    const double d = factor * increment_[i];
+    trial_.q[i] += d;
+    trial_.v[i] += weights.damping * d;
+    trial_.a[i] += weights.mass * d;
+  }
+  return factor == 1.0;
+}
+
+int GeneralizedAlpha::allowed_iterations(const StepReport& report) const {
+  return report.modified_newton ? options_.max_modified_iterations : options_.max_iterations;
 }
 
 double GeneralizedAlpha::local_error() {
@@ -147,7 +171,7 @@ void GeneralizedAlpha::predict(const State& state, double t, double h) {
 }
 
 /// Puts the prescribed positions in and corrects velocity and acceleration as a Newton increment would.
-void GeneralizedAlpha::follow_prescribed(double gamma_h, double beta_h) {
+void GeneralizedAlpha::follow_prescribed(const TangentWeights& weights) {
   const std::span<const std::size_t> unknowns = system_.prescribed();
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     predicted_[k] = {trial_.q[unknowns[k]], trial_.v[unknowns[k]], trial_.a[unknowns[k]]};
@@ -155,18 +179,16 @@ void GeneralizedAlpha::follow_prescribed(double gamma_h, double beta_h) {
   system_.prescribe(trial_);
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     const double d = trial_.q[unknowns[k]] - predicted_[k][0];
-    trial_.v[unknowns[k]] = predicted_[k][1] + gamma_h * d;
-    trial_.a[unknowns[k]] = predicted_[k][2] + beta_h * d;
+    trial_.v[unknowns[k]] = predicted_[k][1] + weights.damping * d;
+    trial_.a[unknowns[k]] = predicted_[k][2] + weights.mass * d;
   }
 }
 
-/// increment_ from the linearised residual at the trial state. A solver that refuses an unsymmetric matrix gets the
-/// symmetric part: Newton is then a modified one.
-StepStatus GeneralizedAlpha::solve_increment(const TangentWeights& weights, const TangentFloor& floor, StepReport& report) {
+/// Residual, tangent and its factors at the trial state. A solver that refuses an unsymmetric matrix gets the symmetric
+/// part: Newton is then a modified one.
+StepStatus GeneralizedAlpha::linearize(const TangentWeights& weights, const TangentFloor& floor, StepReport& report) {
   system_.tangent(trial_, weights, floor, residual_, tangent_);
-  system_.reduce(tangent_, residual_, condensed_);
   ++report.residuals;
-  ++report.iterations;
   ++report.factorizations;
   FactorReport factors = solver_.factorize(tangent_.chain);
   if (factors.status == FactorStatus::not_applicable) {
@@ -179,15 +201,18 @@ StepStatus GeneralizedAlpha::solve_increment(const TangentWeights& weights, cons
     report.worst = factors.failed_unknown;
     return StepStatus::singular;
   }
-  solver_.solve(condensed_);
-  system_.expand(tangent_, condensed_, increment_);
   return StepStatus::ok;
 }
 
-/// Scaled norm [N] of what must vanish at the trial state, and the force to compare it with.
+/// increment_ from residual_ with the factors in hand.
+void GeneralizedAlpha::solve() {
+  system_.reduce(tangent_, residual_, condensed_);
+  solver_.solve(condensed_);
+  system_.expand(tangent_, condensed_, increment_);
+}
+
+/// Projects residual_ and measures it: the force that must vanish and the one to compare it with [N].
 GeneralizedAlpha::Measure GeneralizedAlpha::measure(StepReport& report) {
-  system_.residual(trial_, residual_);
-  ++report.residuals;
   const double reference = system_.reference_force(residual_);
   system_.project(residual_);
   const ScaledResidual largest = system_.scaled_residual(residual_);
@@ -196,6 +221,7 @@ GeneralizedAlpha::Measure GeneralizedAlpha::measure(StepReport& report) {
   return {largest.force, reference};
 }
 
+/// The trial state against the old one.
 bool GeneralizedAlpha::turned_too_far(const State& state) {
   for (std::size_t i = 0; i < increment_.size(); ++i) {
     increment_[i] = trial_.q[i] - state.q[i];

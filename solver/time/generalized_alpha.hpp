@@ -48,8 +48,8 @@ enum class StepStatus {
 
 struct StepReport {
   StepStatus status = StepStatus::ok;
-  int iterations = 0;      // of Newton: one factorization and one solve each
-  int factorizations = 0;  // a refused matrix counts as well
+  int iterations = 0;      // of Newton: one solve each
+  int factorizations = 0;  // fewer where factors served twice; a refused matrix counts as well
   int residuals = 0;       // evaluations, those with a tangent included
   double residual = 0.0;   // the last one over the reference force
   std::size_t worst = 0;   // unknown of the largest residual entry
@@ -77,11 +77,15 @@ class GeneralizedAlpha {
   };
 
   void predict(const State& state, double t, double h);
-  void follow_prescribed(double gamma_h, double beta_h);
-  StepStatus solve_increment(const TangentWeights& weights, const TangentFloor& floor, StepReport& report);
+  void follow_prescribed(const TangentWeights& weights);
+  StepStatus iterate(const TangentWeights& weights, const TangentFloor& floor, double floor_force, StepReport& report);
+  StepStatus linearize(const TangentWeights& weights, const TangentFloor& floor, StepReport& report);
+  void solve();
+  bool update(const TangentWeights& weights);
+  Measure measure(StepReport& report);
+  int allowed_iterations(const StepReport& report) const;
   bool turned_too_far(const State& state);
   void accept(State& state, double h);
-  Measure measure(StepReport& report);
 
   const System& system_;
   LinearSolver& solver_;
