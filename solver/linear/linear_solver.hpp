@@ -2,7 +2,8 @@
 //
 //   analyze once per pattern -> factorize for every new set of values -> solve as often as wanted
 //
-// A numerical failure is a returned status, never an exception. No allocation after analyze.
+// A numerical failure is a returned status, never an exception. Nothing is allocated after analyze but UMFPACK's numeric factors, KLU's where
+// it chooses rows anew, and the chain solver's pivoted fallback at its first use. What is promised of accuracy: solver/linear/README.md.
 #pragma once
 
 #include <memory>
@@ -20,12 +21,12 @@ enum class LinearSolverKind { automatic, chain, band, cholmod, umfpack, klu };
 enum class FactorStatus {
   ok,
   singular,        // a zero or unusable pivot: `message` says at which unknown
-  not_applicable,  // the solver cannot take this matrix (CHOLMOD: unsymmetric, or not positive definite)
+  not_applicable,  // the solver cannot take this matrix (CHOLMOD: unsymmetric, or indefinite with growing entries)
 };
 
 struct FactorReport {
   FactorStatus status = FactorStatus::ok;
-  int negative_pivots = -1;       // of a symmetric matrix factorized without exchanging rows; -1: not known
+  int negative_pivots = -1;       // negative eigenvalues, if the matrix is symmetric (the caller knows that); -1: rows were exchanged
   double smallest_pivot = 0.0;    // absolute values
   double largest_pivot = 0.0;
   bool fell_back = false;         // the solver's own pivoted fallback was used
@@ -64,7 +65,7 @@ std::span<const LinearSolverKind> all_linear_solvers();
 /// Number of negative eigenvalues of the symmetric part of a matrix (Sylvester: signs of pivots), counted on the chains.
 struct Inertia {
   int negative = 0;
-  int zero = 0;                  // pivots below 1e-14 of the largest
+  int zero = 0;                  // pivots, with all they couple to, below 1e-14 of the largest diagonal entry
   std::size_t first_negative = 0;  // unknown
 };
 Inertia inertia_of_symmetric_part(const BlockTridiagonal& matrix);
