@@ -16,19 +16,25 @@
 namespace hawser {
 namespace {
 
-constexpr const char* program_help =
-    "Example:\n"
+constexpr const char* program_example =
     "  hawser check  data/scenes/umbilical-heave.toml\n"
     "  hawser static data/scenes/catenary-5000.toml\n"
-    "  hawser run    data/scenes/umbilical-heave.toml --out heave\n"
-    "\n"
+    "  hawser run    data/scenes/umbilical-heave.toml --out heave";
+constexpr const char* program_description =
     "hawser computes how long marine cables hang, tow and shake.\n"
     "Exit codes: 0 done, 1 internal error, 2 usage or input, 3 no static equilibrium, 4 the time integration stopped, 130 interrupted.";
+constexpr const char* check_example = "  hawser check scene.toml";
+constexpr const char* static_example = "  hawser static scene.toml --set environment.water_density=1000 --json";
+constexpr const char* run_example = "  hawser run scene.toml --out results";
 
-constexpr const char* check_help = "Example:\n  hawser check scene.toml\n\nSays what was understood of a scene and what it will cost; solves nothing.";
-constexpr const char* static_help =
-    "Example:\n  hawser static scene.toml --set environment.water_density=1000 --json\n\nComputes the static equilibrium.";
-constexpr const char* run_help = "Example:\n  hawser run scene.toml --out results\n\nComputes the equilibrium, then the motion; writes a folder of results and pictures.";
+/// Help that starts with the example, kept as the footer of a command.
+class ExampleFirst : public CLI::Formatter {
+  std::string make_description(const CLI::App* app) const override {
+    const std::string example = app->get_footer().empty() ? "" : "Example:\n" + app->get_footer() + "\n\n";
+    return example + CLI::Formatter::make_description(app);
+  }
+  std::string make_footer(const CLI::App*) const override { return {}; }
+};
 
 /// Commands and options that are spelled in the documentation but do nothing yet: known by name, refused.
 constexpr std::array<const char*, 5> unbuilt_commands{"modes", "sweep", "chart", "report", "convert"};
@@ -66,19 +72,22 @@ void add_static(CLI::App& command, Request& request) {
 
 int dispatch(int argc, const char* const* argv) {
   Request request;
-  CLI::App app{program_help, "hawser"};
+  CLI::App app{program_description, "hawser"};
+  app.formatter(std::make_shared<ExampleFirst>());
+  app.footer(program_example);
   app.set_version_flag("--version", std::string("hawser ") + HAWSER_VERSION);
   app.require_subcommand(1);
   int code = static_cast<int>(ExitCode::done);
-  const auto add_command = [&](const char* name, const char* help, int (*run)(const Request&)) {
+  const auto add_command = [&](const char* name, const char* help, const char* example, int (*run)(const Request&)) {
     CLI::App* command = app.add_subcommand(name, help);
+    command->footer(example);
     add_common(*command, request);
     command->callback([&code, &request, run] { code = run(request); });
     return command;
   };
-  add_command("check", check_help, command_check);
-  add_static(*add_command("static", static_help, command_static), request);
-  add_command("run", run_help, command_run)
+  add_command("check", "say what was understood of a scene and what it will cost; solve nothing", check_example, command_check);
+  add_static(*add_command("static", "compute the static equilibrium", static_example, command_static), request);
+  add_command("run", "compute the equilibrium, then the motion; write a folder of results and pictures", run_example, command_run)
       ->add_option("--out", request.out, "folder for the results (default: SCENE.out in the current folder)")
       ->type_name("DIR");
   for (const char* name : unbuilt_commands) {

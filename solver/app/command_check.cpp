@@ -90,15 +90,15 @@ std::string line_text(const Scene& scene, const Model& model, int index) {
 std::string check_text(const Scene& scene, const Model& model) {
   const Environment& sea = scene.environment;
   const CostEstimate cost = estimate_cost(scene, model);
-  std::string text = fmt::format("{}\ngravity {:.6g} m/s2, water {:.6g} kg/m3, current {} to {:.3g} m/s{}\n\n", scene.title, sea.gravity, sea.water_density,
-                                 sea.current.empty() ? "none, up" : fmt::format("{} rows, up", sea.current.size()), model.current.fastest(),
+  std::string text = fmt::format("{}\ngravity {:.6g} m/s2, water {:.6g} kg/m3, {}{}\n\n", scene.title, sea.gravity, sea.water_density,
+                                 sea.current.empty() ? std::string("no current") : fmt::format("current up to {:.3g} m/s", model.current.fastest()),
                                  sea.depth ? fmt::format(", depth {:.6g} m", *sea.depth) : "");
   for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) text += line_text(scene, model, i) + '\n';
   text += fmt::format("{} unknowns, linear solver {}, {} thread{}, about {}\n", model.unknowns, scene.solve.linear_solver, scene.solve.threads,
                       scene.solve.threads == 1 ? "" : "s", with_prefix(cost.bytes, "B"));
-  text += fmt::format("estimate for one core: static {}", with_prefix(cost.static_seconds, "s"));
+  text += fmt::format("estimate for one core: static {:.2g} s", cost.static_seconds);
   if (scene.dynamics) {
-    text += fmt::format("; run {} ({:.6g} s in {} steps of {:.4g} s, {} iterations a step)", with_prefix(cost.dynamic_seconds, "s"), scene.dynamics->duration,
+    text += fmt::format("; run {:.2g} s ({:.6g} s in {} steps of {:.4g} s, {} iterations a step)", cost.dynamic_seconds, scene.dynamics->duration,
                         cost.steps, scene.dynamics->step, iterations_a_step);
   }
   return text + '\n';

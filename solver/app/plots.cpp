@@ -63,15 +63,21 @@ void write_shapes(const fs::path& folder, const PlotData& data) {
   }
 }
 
-/// One panel: the shapes in the plane of two axes (0 x, 1 y, 2 z), first shape dark, last red, the others faded.
-std::string shape_panel(const PlotData& data, const Box& box, int across, int up) {
+/// Axes of a panel whose room is `room` times as wide as high: equal scales unless they would leave most of it empty.
+std::string shape_axes(const Box& box, int across, int up, double room) {
   static constexpr std::array<char, 3> names{'x', 'y', 'z'};
   const double width = box.extent(across), height = box.extent(up);
-  const bool equal = width > 0.25 * height && height > 0.25 * width;
-  const double margin_across = 0.06 * std::max(width, 0.05 * height), margin_up = 0.06 * std::max(height, 0.05 * width);
-  std::string text = fmt::format("set xlabel '{} [m]{}'\nset ylabel '{} [m]'\n", names[across], equal ? "" : ", not to the scale of the other axis", names[up]);
-  text += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset size {}\n", box.low[across] - margin_across, box.high[across] + margin_across,
-                      box.low[up] - margin_up, box.high[up] + margin_up, equal ? "ratio -1" : "noratio");
+  const bool equal = width > 0.4 * room * height && width < 4.0 * room * height;
+  // Room for the names of the points; a line without extent across still gets a frame.
+  const double margin_across = 0.12 * std::max(width, 0.05 * height), margin_up = 0.07 * std::max(height, 0.05 * width);
+  return fmt::format("set xlabel '{} [m]'\nset ylabel '{} [m]{}'\nset xrange [{}:{}]\nset yrange [{}:{}]\nset size {}\n", names[across], names[up],
+                     equal ? "" : "  (not to the scale of the other axis)", box.low[across] - margin_across, box.high[across] + margin_across,
+                     box.low[up] - margin_up, box.high[up] + margin_up, equal ? "ratio -1" : "noratio");
+}
+
+/// One panel: the shapes in the plane of two axes (0 x, 1 y, 2 z), first shape dark, last red, the others faded.
+std::string shape_panel(const PlotData& data, const Box& box, int across, int up, double room) {
+  std::string text = shape_axes(box, across, up, room);
   const std::size_t lines = data.model.lines.size(), last = data.shapes.size() - 1;
   text += "plot ";
   const auto add = [&](std::size_t shape, std::size_t line, const char* style, const std::string& title) {
@@ -81,7 +87,7 @@ std::string shape_panel(const PlotData& data, const Box& box, int across, int up
   const auto label = [&](std::size_t shape) { return data.in_time ? fmt::format("t = {:.4g} s", data.shapes[shape].time) : std::string("equilibrium"); };
   for (std::size_t shape = 1; shape < last; ++shape) {
     const bool first = shape == 1;
-    for (std::size_t line = 0; line < lines; ++line) add(shape, line, "linewidth 1 linecolor rgb '#a9bccf'", first && line == 0 ? "between" : "");
+    for (std::size_t line = 0; line < lines; ++line) add(shape, line, "linewidth 1 linecolor rgb '#9db4cc'", first && line == 0 ? "between" : "");
   }
   if (last > 0) {
     for (std::size_t line = 0; line < lines; ++line) add(last, line, "linewidth 2.5 linecolor rgb '#c8501e'", line == 0 ? label(last) : "");
@@ -96,10 +102,12 @@ std::string profile_script(const PlotData& data) {
   const Box box = box_of(data.shapes);
   const double small = 1e-3 * box.largest();
   std::string text = gnuplot_head("profile", data.title);
-  if (box.extent(1) <= small) return text + shape_panel(data, box, 0, 2);
-  if (box.extent(0) <= small) return text + shape_panel(data, box, 1, 2);
+  text += data.in_time ? "set key outside bottom center horizontal\n" : "unset key\n";
+  constexpr double whole = 1.6, half = 0.75;  // width over height of the room for one panel and for two
+  if (box.extent(1) <= small) return text + shape_panel(data, box, 0, 2, whole);
+  if (box.extent(0) <= small) return text + shape_panel(data, box, 1, 2, whole);
   text += fmt::format("unset title\nset multiplot layout 1,2 title {} noenhanced font 'Sans,18'\n", gnuplot_quoted(data.title));
-  text += shape_panel(data, box, 0, 2) + "unset key\n" + shape_panel(data, box, 0, 1) + "unset multiplot\n";
+  text += shape_panel(data, box, 0, 2, half) + shape_panel(data, box, 0, 1, half) + "unset multiplot\n";
   return text;
 }
 
