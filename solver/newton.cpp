@@ -12,6 +12,7 @@ constexpr double floor_factor = 0.2;    // after a full step
 constexpr double floor_negligible = 1e-8;  // of its start: then the exact matrix, also where no tension is left
 constexpr double roundoff_margin = 20.0;   // a stalled residual below this many round-off floors counts as rounding
 constexpr int stalled_steps = 4;           // full steps that no longer lower the residual
+constexpr int resting_steps = 12;          // steps with the residual at rounding, whatever the increments
 
 double step_factor(const IncrementSize& size, double length) {
   const double by_slope = size.slope > slope_cap ? slope_cap / size.slope : 1.0;
@@ -19,22 +20,25 @@ double step_factor(const IncrementSize& size, double length) {
   return std::min(by_slope, by_position);
 }
 
-/// Counts full steps that do not improve on the best residual so far.
-class Stall {
+/// Recognises a residual that rounding holds up. Either full, small steps no longer lower it; or it has long been there while
+/// the increments wander: then they are rounding too, along a direction that nothing holds (the slope of a bare end).
+class Rounding {
  public:
-  bool stands(double residual, bool full_step) {
+  bool holds(double residual, double roundoff, bool full_step, bool small_step) {
     if (residual < 0.5 * best_) {
       best_ = residual;
-      steps_ = 0;
+      stalled_ = 0;
     } else if (full_step) {
-      ++steps_;
+      ++stalled_;
     }
-    return steps_ >= stalled_steps;
+    const bool at_rounding = residual <= roundoff_margin * roundoff;
+    resting_ = at_rounding ? resting_ + 1 : 0;
+    return at_rounding && ((stalled_ >= stalled_steps && small_step) || resting_ >= resting_steps);
   }
 
  private:
   double best_ = HUGE_VAL;
-  int steps_ = 0;
+  int stalled_ = 0, resting_ = 0;
 };
 
 /// Takes the increment back in halves until it no longer raises the residual: the guard of a modified Newton.
@@ -54,7 +58,7 @@ double damped_advance(NewtonSystem& system, double factor, double residual_befor
 NewtonReport newton(NewtonSystem& system, const NewtonOptions& options) {
   NewtonReport report;
   double floor = options.floor;
-  Stall stall;
+  Rounding rounding;
   report.residual = system.residual();
   report.residuals.push_back(report.residual);
   while (report.factorizations < options.max_iterations) {
@@ -82,7 +86,7 @@ NewtonReport newton(NewtonSystem& system, const NewtonOptions& options) {
       report.status = NewtonStatus::converged;
       return report;
     }
-    if (stall.stands(report.residual, full) && small && report.residual <= roundoff_margin * system.roundoff()) {
+    if (rounding.holds(report.residual, system.roundoff(), full, small)) {
       report.status = NewtonStatus::roundoff;
       return report;
     }

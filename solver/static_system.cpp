@@ -10,6 +10,8 @@ namespace hawser {
 namespace {
 
 constexpr double automatic_tolerance = 1e-10;
+constexpr double minimum_share = 1e-6;    // of the load on an element in Model::minimum_tension
+constexpr double unresolved_share = 0.1;  // of it: compression that the mesh does not resolve
 constexpr TangentWeights static_weights{1.0, 0.0, 0.0};
 
 }  // namespace
@@ -23,17 +25,20 @@ LeastTension least_strain_tension(const Model& model, const State& state) {
   return least;
 }
 
-StaticSystem::StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, State& state)
+StaticSystem::StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, bool exact_compression, State& state)
     : assembler_(assembler),
       model_(assembler.model()),
       linear_(linear),
       state_(state),
       relative_tolerance_(tolerance > 0.0 ? tolerance : automatic_tolerance),
+      exact_compression_(exact_compression),
       tangent_(assembler.make_tangent()),
       r_(model_.unknowns),
       rhs_(model_.dofs),
       d_(model_.unknowns) {
   linear_.analyze(tangent_.chain);
+  const std::vector<double>& least = model_.element.minimum_tension;
+  least_kept_ = *std::max_element(least.begin(), least.end());
 }
 
 double StaticSystem::residual() {
@@ -47,7 +52,8 @@ double StaticSystem::residual() {
 double StaticSystem::least_tension() { return least_strain_tension(model_, state_).value; }
 
 bool StaticSystem::solve(double floor) {
-  assembler_.tangent(state_, static_weights, {floor, true, floor > 0.0}, r_, tangent_);
+  const bool keep = !exact_compression_ || floor > 0.0 || least_tension() > -10.0 * least_kept_;
+  assembler_.tangent(state_, static_weights, {floor, keep, floor > 0.0}, r_, tangent_);
   assembler_.reduce(tangent_, r_, rhs_);
   assembler_.project(r_);
   factor_report_ = factorize();
@@ -76,7 +82,7 @@ bool free_of_compression(const Model& model, const State& state, double roundoff
     const Line& line = model.lines[index];
     double neutral = 0.0, EI = model.element.EI[line.first_element];
     for (int e = line.first_element; e < line.first_element + line.elements; ++e) {
-      neutral = std::max(neutral, model.element.minimum_tension[e]);
+      neutral = std::max(neutral, unresolved_share / minimum_share * model.element.minimum_tension[e]);
       EI = std::min(EI, model.element.EI[e]);
     }
     const bool clamped = std::any_of(model.supports.begin(), model.supports.end(), [&](const Support& s) { return s.line == index && s.clamped; });

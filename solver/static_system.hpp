@@ -14,7 +14,9 @@ namespace hawser {
 class StaticSystem : public NewtonSystem {
  public:
   /// tolerance: relative to the reference force; 0: automatic. Everything referred to must outlive the system.
-  StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, State& state);
+  /// exact_compression: keep the least tension only while nothing is compressed. Near a bare end the discrete solution has
+  /// slightly negative strain tensions, from which the exact matrix converges quadratically and the kept one linearly.
+  StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, bool exact_compression, State& state);
 
   double residual() override;
   double tolerance() override { return relative_tolerance_ * reference_force_; }
@@ -37,15 +39,19 @@ class StaticSystem : public NewtonSystem {
   LinearSolver& linear_;
   State& state_;
   double relative_tolerance_;
+  bool exact_compression_;
   Tangent tangent_;
   std::vector<double> r_, rhs_, d_;
   double reference_force_ = 0.0, roundoff_ = 0.0;
+  double least_kept_ = 0.0;  // N, largest Model::minimum_tension
   bool modified_ = false;
   FactorReport factor_report_;
 };
 
-/// No compression that could buckle a line. Below zero are allowed: `roundoff`, the least tension that the tangent floors, and
-/// in a beam with a clamped end the Euler load of the cantilever, pi^2 EI / 4 L^2, which no straight column held there needs.
+/// No compression that could buckle a line. Below zero are allowed:
+///   - `roundoff` and a tenth of the load on one element: what the mesh leaves where the tension vanishes (a bare end). A line
+///     that really stands under compression carries at least the load on an element, growing with every further one;
+///   - in a beam with a clamped end, the Euler load of the cantilever, pi^2 EI / 4 L^2: less cannot buckle it.
 bool free_of_compression(const Model& model, const State& state, double roundoff);
 
 /// Negative pivots of the exact tangent of the loads that have a potential: axial, bending, weight, dead forces. Drag and

@@ -16,7 +16,8 @@
 namespace hawser {
 namespace {
 
-constexpr int unfloored_iterations = 30;  // a good start needs a tenth of them
+constexpr int unfloored_iterations = 30;  // of one stage; a good start needs a tenth of them
+constexpr int floored_iterations = 90;    // of one stage; a straight start needs a quarter of them
 constexpr double floor_share = 0.25;      // of the load: T_f = 0.25 w L (theory 7.2)
 
 double longest_line(const Model& model) {
@@ -70,29 +71,32 @@ class StaticSolver {
         state_(state),
         report_(report),
         linear_(make_linear_solver(options.linear_solver)),
-        floor_(starting_floor(model_)) {
+        floor_(starting_floor(model_)),
+        limp_(*std::min_element(model_.element.EI.begin(), model_.element.EI.end()) == 0.0) {
     report_.linear_solver = linear_->name();
   }
 
   void run() {
-    const bool good_start = options_.start != StaticStart::straight;
+    const bool straight = options_.start == StaticStart::straight;
     const State start = options_.start == StaticStart::given ? state_ : static_start(model_, options_.start);
-    if (good_start && accepted("Newton from the start", start, 0.0, unfloored_iterations)) return;
+    if (!straight && accepted("Newton from the start", start, 0.0)) return;
     if (accepted("tension-floored Newton from the start", start, floor_)) return;
+    if (options_.start != StaticStart::catenary) {
+      const State catenary = static_start(model_, StaticStart::catenary);
+      if (accepted("Newton from the catenary", catenary, 0.0) || accepted("tension-floored Newton from the catenary", catenary, floor_)) return;
+    }
     if (without_bending_first()) return;
-    if (options_.start != StaticStart::catenary && accepted("tension-floored Newton from the catenary", static_start(model_, StaticStart::catenary), floor_))
-      return;
-    if (options_.start != StaticStart::straight) accepted("tension-floored Newton from straight lines", static_start(model_, StaticStart::straight), floor_);
+    if (!straight) accepted("tension-floored Newton from straight lines", static_start(model_, StaticStart::straight), floor_);
   }
 
  private:
   /// Solves from a start; true if the result is a stable equilibrium. An unstable one is bowed sideways and solved again.
-  bool accepted(const std::string& name, const State& start, double floor, int iterations = std::numeric_limits<int>::max()) {
+  bool accepted(const std::string& name, const State& start, double floor) {
     state_ = start;
-    if (!converges(assembler_, name, floor, iterations)) return false;
+    if (!converges(assembler_, name, floor)) return false;
     if (report_.stable) return true;
     perturb_sideways(model_, state_);
-    return converges(assembler_, name + ", bowed sideways because the result was compressed", floor_, iterations) && report_.stable;
+    return converges(assembler_, name + ", bowed sideways because the result was compressed", floor_) && report_.stable;
   }
 
   /// EI = 0 from the catenary, then with EI from there: a folded start unfolds (theory 7.2).
@@ -102,19 +106,19 @@ class StaticSolver {
     std::fill(limp.element.EI.begin(), limp.element.EI.end(), 0.0);
     const Assembler limp_assembler(limp, options_.threads);
     state_ = static_start(limp, StaticStart::catenary);
-    if (!converges(limp_assembler, "without bending stiffness", floor_, std::numeric_limits<int>::max())) return false;
+    if (!converges(limp_assembler, "without bending stiffness", floor_)) return false;
     const State start = state_;
-    return accepted("with bending stiffness from there", start, 0.0, unfloored_iterations) || accepted("the same, tension-floored", start, floor_);
+    return accepted("with bending stiffness from there", start, 0.0) || accepted("the same, tension-floored", start, floor_);
   }
 
-  bool converges(const Assembler& assembler, const std::string& name, double floor, int iterations) {
+  bool converges(const Assembler& assembler, const std::string& name, double floor) {
     const int left = options_.max_iterations - report_.iterations;
     if (left <= 0) return false;
-    StaticSystem system(assembler, *linear_, options_.tolerance, state_);
+    StaticSystem system(assembler, *linear_, options_.tolerance, limp_ && floor == 0.0, state_);
     NewtonOptions newton_options;
     newton_options.length = longest_line(model_);
     newton_options.floor = floor;
-    newton_options.max_iterations = std::min(left, iterations);
+    newton_options.max_iterations = std::min(left, floor > 0.0 ? floored_iterations : unfloored_iterations);
     newton_options.inexact_matrix = !linear_->takes_unsymmetric() && model_.wet;
     const NewtonReport result = newton(system, newton_options);
     record(system, result);
@@ -152,6 +156,7 @@ class StaticSolver {
   StaticReport& report_;
   std::unique_ptr<LinearSolver> linear_;
   double floor_;  // N, T_f at the start of a floored stage
+  bool limp_;     // some element has no bending stiffness
 };
 
 }  // namespace
