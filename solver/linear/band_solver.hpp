@@ -19,8 +19,8 @@ class BandSolver final : public LinearSolver {
  private:
   struct Band {
     Chain chain;
-    int half_width = 0;      // sub- and superdiagonals
-    int column_length = 0;   // 3 half_width + 1: room for the fill of row exchanges
+    int half_width = 0;     // sub- and superdiagonals
+    int column_length = 0;  // 3 half_width + 1: room for the fill of row exchanges
     std::vector<double> values;
     std::vector<int> exchanged_row;
   };

@@ -205,9 +205,9 @@ __attribute__((optimize("no-tree-vectorize"))) void solve_chain(int nodes, const
   HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = 0.0;
   for (int k = 0; k < nodes; ++k, factors += node_values, b += B) {
     HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] = b[i];
-    if (k > 0)
-      HAWSER_UNROLL for (int j = 0; j < B; ++j)
-        HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] -= factors[B * j + i - block] * z[j];
+    if (k > 0) {
+      HAWSER_UNROLL for (int j = 0; j < B; ++j) { HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] -= factors[B * j + i - block] * z[j]; }
+    }
     HAWSER_UNROLL for (int j = 0; j < B; ++j) {
       HAWSER_UNROLL for (int i = j + 1; i < B; ++i) c[i] -= factors[B * j + i] * c[j];
       b[j] = z[j] = c[j];
@@ -216,9 +216,9 @@ __attribute__((optimize("no-tree-vectorize"))) void solve_chain(int nodes, const
   for (int k = nodes - 1; k >= 0; --k) {
     factors -= node_values, b -= B;
     HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] = b[i];
-    if (k + 1 < nodes)
-      HAWSER_UNROLL for (int j = B - 1; j >= 0; --j)
-        HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] -= factors[block + B * j + i] * z[j];
+    if (k + 1 < nodes) {
+      HAWSER_UNROLL for (int j = B - 1; j >= 0; --j) { HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] -= factors[block + B * j + i] * z[j]; }
+    }
     HAWSER_UNROLL for (int j = B - 1; j >= 0; --j) {
       c[j] *= factors[B * j + j];
       HAWSER_UNROLL for (int i = 0; i < j; ++i) c[i] -= factors[B * j + i] * c[j];

@@ -16,8 +16,8 @@ namespace hawser {
 
 namespace {
 
-constexpr double symmetric_to = 1e-12;   // relative; what rounding leaves of a tangent that is symmetric by its formula
-constexpr double growth_limit = 100.0;   // 1e-14 / eps, as the chain solver
+constexpr double symmetric_to = 1e-12;  // relative; what rounding leaves of a tangent that is symmetric by its formula
+constexpr double growth_limit = 100.0;  // 1e-14 / eps, as the chain solver
 
 class CholmodSolver final : public LinearSolver {
  public:
@@ -113,8 +113,8 @@ class CholmodSolver final : public LinearSolver {
     for (const double v : map_.value) largest = std::max(largest, std::abs(v));
     if (report.largest_pivot <= growth_limit * largest) return;
     report.status = FactorStatus::not_applicable;
-    report.message = fmt::format("an indefinite matrix on which LDL^T without exchange of rows is not stable: growth {:.1e}",
-                                 report.largest_pivot / largest);
+    report.message =
+        fmt::format("an indefinite matrix on which LDL^T without exchange of rows is not stable: growth {:.1e}", report.largest_pivot / largest);
   }
 
   void release() {

@@ -26,11 +26,11 @@ enum class FactorStatus {
 
 struct FactorReport {
   FactorStatus status = FactorStatus::ok;
-  int negative_pivots = -1;       // negative eigenvalues, if the matrix is symmetric (the caller knows that); -1: rows were exchanged
-  double smallest_pivot = 0.0;    // absolute values
+  int negative_pivots = -1;     // negative eigenvalues, if the matrix is symmetric (the caller knows that); -1: rows were exchanged
+  double smallest_pivot = 0.0;  // absolute values
   double largest_pivot = 0.0;
-  bool fell_back = false;         // the solver's own pivoted fallback was used
-  std::size_t failed_unknown = 0; // where status != ok
+  bool fell_back = false;          // the solver's own pivoted fallback was used
+  std::size_t failed_unknown = 0;  // where status != ok
   std::string message;
 };
 
@@ -65,7 +65,7 @@ std::span<const LinearSolverKind> all_linear_solvers();
 /// Number of negative eigenvalues of the symmetric part of a matrix (Sylvester: signs of pivots), counted on the chains.
 struct Inertia {
   int negative = 0;
-  int zero = 0;                  // pivots, with all they couple to, below 1e-14 of the largest diagonal entry
+  int zero = 0;                    // pivots, with all they couple to, below 1e-14 of the largest diagonal entry
   std::size_t first_negative = 0;  // unknown
 };
 Inertia inertia_of_symmetric_part(const BlockTridiagonal& matrix);

@@ -52,8 +52,8 @@ class UmfpackSolver final : public LinearSolver {
   }
 
   void solve(std::span<double> b) override {
-    umfpack_di_wsolve(UMFPACK_A, map_.column_start.data(), map_.row.data(), map_.value.data(), solution_.data(), b.data(), numeric_,
-                      control_.data(), info_.data(), integer_work_.data(), work_.data());
+    umfpack_di_wsolve(UMFPACK_A, map_.column_start.data(), map_.row.data(), map_.value.data(), solution_.data(), b.data(), numeric_, control_.data(),
+                      info_.data(), integer_work_.data(), work_.data());
     std::copy(solution_.begin(), solution_.end(), b.begin());
   }
 

@@ -22,8 +22,11 @@ constexpr double backward_tolerance = 1e-14;
 constexpr int systems = 8;
 
 const std::vector<std::pair<std::string, std::vector<Shape>>> shapes = {
-    {"one_node", {{6, 1}}},         {"bars", {{3, 40}}},           {"cable", {{6, 50}}},
-    {"two_bar_lines", {{3, 7}, {3, 12}}}, {"mixed_lines", {{6, 20}, {3, 1}, {3, 30}, {6, 2}}},
+    {"one_node", {{6, 1}}},
+    {"bars", {{3, 40}}},
+    {"cable", {{6, 50}}},
+    {"two_bar_lines", {{3, 7}, {3, 12}}},
+    {"mixed_lines", {{6, 20}, {3, 1}, {3, 30}, {6, 2}}},
 };
 
 class EveryLinearSolver : public testing::TestWithParam<std::tuple<LinearSolverKind, Kind, std::size_t>> {

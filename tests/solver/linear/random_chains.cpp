@@ -58,10 +58,14 @@ void scale_rows(BlockTridiagonal& matrix, Random& random) {
 
 std::string name_of(Kind kind) {
   switch (kind) {
-    case Kind::positive_definite: return "positive_definite";
-    case Kind::symmetric_indefinite: return "symmetric_indefinite";
-    case Kind::unsymmetric: return "unsymmetric";
-    case Kind::badly_scaled: return "badly_scaled";
+    case Kind::positive_definite:
+      return "positive_definite";
+    case Kind::symmetric_indefinite:
+      return "symmetric_indefinite";
+    case Kind::unsymmetric:
+      return "unsymmetric";
+    case Kind::badly_scaled:
+      return "badly_scaled";
   }
   return {};
 }
