@@ -116,7 +116,8 @@ TEST(Simulate, ObserverSeesConsistentAccelerationsAtTheStart) {
 TEST(Simulate, ObserverCanInterrupt) {
   SmallSwing swing;
   int calls = 0;
-  const SimulateReport report = simulate(swing.assembler, times(1.0, 0.05, 0.1), swing.state, [&](const State&, const SimulateCounters&) { return ++calls < 4; });
+  const Observer observe = [&](const State&, const SimulateCounters&) { return ++calls < 4; };
+  const SimulateReport report = simulate(swing.assembler, times(1.0, 0.05, 0.1), swing.state, observe);
   EXPECT_TRUE(report.interrupted);
   EXPECT_FALSE(report.finished);
   EXPECT_EQ(calls, 4);

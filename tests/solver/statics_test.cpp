@@ -70,7 +70,7 @@ TEST(Statics, NewtonConvergesQuadraticallyOnALine) {
   const Assembler assembler(model);
   State state = static_start(model, StaticStart::straight);
   const auto linear = make_linear_solver(LinearSolverKind::chain);
-  StaticSystem system(assembler, *linear, 1e-14, false, state);
+  StaticSystem system(assembler, *linear, 1e-14, 1e-3, state);
   NewtonOptions options;
   options.length = 5000.0;
   options.floor = 0.25 * 11.885 * 5000.0;

@@ -90,7 +90,14 @@ class SmallSystem : public System {
       r[i] = value[i].value();
       for (int j = 0; j < n; ++j) {
         const int row = i / 3, column = j / 3;
-        double* block = column == row ? t.chain.D(chain, row) : column == row + 1 ? t.chain.U(chain, row) : column + 1 == row ? t.chain.L(chain, column) : nullptr;
+        double* block = nullptr;
+        if (column == row) {
+          block = t.chain.D(chain, row);
+        } else if (column == row + 1) {
+          block = t.chain.U(chain, row);
+        } else if (column + 1 == row) {
+          block = t.chain.L(chain, column);
+        }
         const bool held = Problem::first_is_prescribed && (i == 0 || j == 0);
         if (block != nullptr) {
           block[i % 3 + 3 * (j % 3)] = held ? (i == j ? 1.0 : 0.0) : value[i].derivatives()[j];
