@@ -130,9 +130,7 @@ inline benchmark::Counter per_element(double elements) {
   return benchmark::Counter(elements, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-inline const char* word_of(ModelChoice family) {
-  return family == ModelChoice::bar ? "bar" : family == ModelChoice::cable ? "cable" : "beam";
-}
+inline const char* word_of(ModelChoice family) { return family == ModelChoice::bar ? "bar" : family == ModelChoice::cable ? "cable" : "beam"; }
 
 constexpr ModelChoice families[] = {ModelChoice::bar, ModelChoice::cable, ModelChoice::beam};
 
