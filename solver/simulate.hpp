@@ -30,8 +30,8 @@ struct SimulateCounters {
   long factorizations = 0;
   long residuals = 0;
   long rejected_steps = 0;
-  double smallest_step = 0.0;  // s
-  double largest_residual = 0.0;  // relative, over accepted steps
+  double smallest_step = 0.0;        // s
+  double largest_residual = 0.0;     // relative, over accepted steps
   double largest_local_error = 0.0;  // m, estimated, of the positions in one step; the first step is not judged (theory 6)
   std::string linear_solver;
   bool modified_newton = false;

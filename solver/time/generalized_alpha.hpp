@@ -34,9 +34,9 @@ struct AlphaCoefficients {
 
 struct StepOptions {
   double spectral_radius = 0.8;
-  double tolerance = 0.0;             // relative residual and increment (theory 6.1); 0: automatic
-  int max_iterations = 12;            // of Newton with the full tangent
-  int max_modified_iterations = 50;   // where the linear solver takes the symmetric part only
+  double tolerance = 0.0;            // relative residual and increment (theory 6.1); 0: automatic
+  int max_iterations = 12;           // of Newton with the full tangent
+  int max_modified_iterations = 50;  // where the linear solver takes the symmetric part only
 };
 
 enum class StepStatus {
@@ -54,7 +54,7 @@ struct StepReport {
   double residual = 0.0;   // the last one over the reference force
   std::size_t worst = 0;   // unknown of the largest residual entry
   bool modified_newton = false;
-  bool easy = false;       // converged in half of the allowed iterations
+  bool easy = false;  // converged in half of the allowed iterations
 };
 
 class GeneralizedAlpha {
