@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 #include <tuple>
 
 #include "solver/app/text_file.hpp"
@@ -46,13 +45,8 @@ Document::Document(const std::string& path, const std::vector<std::string>& over
 }
 
 void Document::parse() {
-  if (const std::optional<Place> deep = too_deep_key(text_)) {
-    const auto line = static_cast<toml::source_index>(deep->line), column = static_cast<toml::source_index>(deep->column);
-    error(toml::source_region{{line, column}, {line, column + 1}, nullptr}, "a key has too many parts", "nested too deep");
-    throw InputError(diagnostics());
-  }
   try {
-    root_ = toml::parse(text_, std::string_view(path_));
+    root_ = parse_toml(text_, path_);
   } catch (const toml::parse_error& failure) {
     error(failure.source(), "not a valid scene file (TOML): " + std::string(failure.description()));
     throw InputError(diagnostics());

@@ -11,7 +11,7 @@
 
 #include "assembly/scene.hpp"
 #include "solver/app/diagnostics.hpp"
-#include "solver/app/toml.hpp"
+#include "solver/app/toml_parse.hpp"
 
 namespace hawser {
 

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <vector>
+
+#include "solver/app/toml_parse.hpp"
 
 namespace hawser {
 namespace {
@@ -40,13 +41,13 @@ toml::table parse_argument(const std::string& argument) {
   const std::string source = "--set " + argument;
   const std::size_t equals = argument.find('=');
   try {
-    return toml::parse(argument, std::string_view(source));
+    return parse_toml(argument, source);
   } catch (const toml::parse_error&) {
     const std::size_t value = equals == std::string::npos ? equals : argument.find_first_not_of(" \t", equals + 1);
     const bool literal = value == std::string::npos || std::string_view("[{\"'").find(argument[value]) != std::string_view::npos;
     if (literal) throw;
   }
-  return toml::parse(quoted(argument, equals), std::string_view(source));
+  return parse_toml(quoted(argument, equals), source);
 }
 
 /// Follows the single chain of keys of `patch` through the document and puts its value there.
@@ -100,70 +101,16 @@ class Patcher {
   std::string path_;
 };
 
-/// Just enough of TOML's lexing to tell keys from strings and comments.
-class KeyScanner {
- public:
-  explicit KeyScanner(std::string_view text) : text_(text) {}
-
-  std::optional<Place> first_with_more_dots_than(int most) {
-    int dots = 0;
-    for (; at_ < text_.size(); ++at_) {
-      const char c = text_[at_];
-      if (c == '"' || c == '\'') {
-        skip_string(c);
-      } else if (c == '#') {
-        at_ = std::min(text_.find('\n', at_), text_.size()) - 1;
-      } else if (c == '.') {
-        if (++dots > most) return place();
-      } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
-        dots = 0;
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  /// Moves to the closing quote, or to the end where there is none.
-  void skip_string(char quote) {
-    const std::string three(3, quote);
-    const bool block = text_.substr(at_, 3) == three;
-    at_ += block ? 3 : 1;
-    for (; at_ < text_.size(); ++at_) {
-      if (text_[at_] == '\\' && quote == '"') {
-        ++at_;
-      } else if (block ? text_.substr(at_, 3) == three : (text_[at_] == quote || text_[at_] == '\n')) {
-        if (block) at_ = std::min(text_.find_first_not_of(quote, at_), text_.size()) - 1;  // """ may close after one or two quotes
-        return;
-      }
-    }
-  }
-
-  Place place() const {
-    const std::string_view before = text_.substr(0, at_);
-    const std::size_t begin = before.rfind('\n') + 1;  // npos + 1 = 0: the first line
-    return {static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1, static_cast<int>(at_ - begin) + 1};
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
-
 }  // namespace
 
 std::optional<Diagnostic> apply_override(toml::table& root, const std::string& argument) {
   if (argument.find('=') == std::string::npos) return trouble(argument, "an override is written key.path=value; there is no `=`");
-  if (too_deep_key(argument)) return trouble(argument, "the key has too many parts");
   try {
     toml::table patch = parse_argument(argument);
     return Patcher(root, argument).apply(patch);
   } catch (const toml::parse_error& failure) {
     return trouble(argument, "not a valid override: " + std::string(failure.description()));
   }
-}
-
-std::optional<Place> too_deep_key(std::string_view toml) {
-  constexpr int most_dots = 16;  // with 256 levels of values (toml++) still far from the end of the stack
-  return KeyScanner(toml).first_with_more_dots_than(most_dots);
 }
 
 }  // namespace hawser

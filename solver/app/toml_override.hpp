@@ -3,19 +3,14 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "solver/app/diagnostics.hpp"
-#include "solver/app/toml.hpp"
+#include "solver/app/toml_parse.hpp"
 
 namespace hawser {
 
 /// Applies one override. The argument is TOML itself (list items are keys 0, 1, ...), except that a value that is not TOML
 /// is taken as a string. New tables are made where missing, but no new line, point or line type.
 std::optional<Diagnostic> apply_override(toml::table& root, const std::string& argument);
-
-/// The place of the first dotted key with more parts than any scene has. toml++ nests one table per part and frees them
-/// recursively, so a hostile key would exhaust the stack.
-std::optional<Place> too_deep_key(std::string_view toml);
 
 }  // namespace hawser

@@ -70,6 +70,21 @@ TEST_F(ReaderFiles, NestedAgainstTheStackAreRefused) {
   }
 }
 
+TEST_F(ReaderFiles, HoldAnyCharacterInTextAndCommentsButNotElsewhere) {
+  const auto title = [this](const std::string& written) { return read(with(sound_scene, "\"sound\"", written + " # é")).title; };
+  EXPECT_EQ(title("\"Größe\""), "Größe");
+  EXPECT_EQ(title("'Größe'"), "Größe");
+  EXPECT_EQ(title("\"\"\"\nGröße\"\"\""), "Größe");
+  EXPECT_EQ(title("\"\"\"one \\\n   two\"\"\""), "one two");
+  EXPECT_EQ(title("\"\"\"one\\\n\"\"\""), "one");
+  EXPECT_EQ(title("\"\"\"a \\\" \"b\"\"\"\""), "a \" \"b\"");
+  const std::string key = errors(with(sound_scene, "title", "größe")), after = errors(with(sound_scene, "2.5", "2.5é"));
+  EXPECT_NE(key.find("characters outside ASCII need quotes around them"), std::string::npos) << key;
+  EXPECT_NE(key.find("scene.toml:1:3\n"), std::string::npos) << key;
+  EXPECT_NE(after.find("scene.toml:6:11\n"), std::string::npos) << after;
+  EXPECT_NE(errors(with(sound_scene, "\"sound\"", "\"\"\"one \\\n é\"\"\"")).find("line-ending backslash"), std::string::npos);
+}
+
 TEST_F(ReaderFiles, OfOneLongLineShowOnlyAPartOfIt) {
   const std::string report = refusal(write("long.toml", "title = [" + std::string(1000000, ' ') + "1, }"));
   EXPECT_LT(report.size(), 1000u);
@@ -158,7 +173,8 @@ TEST_F(ReaderFiles, OfStartsMustKnowTheLines) {
 TEST_F(ReaderOverrides, SetAnyKey) {
   const Scene scene = read(
       sound_scene, {"lines.a.sections.0.elements=77", "lines.a.sections.0.length=\"0.2 km\"", "line_types.rope.EA = 5 MN", "solve.linear_solver=band",
-                    "points.end.position=[1, 2, -80]", "environment.current=[[0, 1, 0]]", "environment.current.0.1=2"});
+                    "points.end.position=[1, 2, -80]", "environment.current=[[0, 1, 0]]", "environment.current.0.1=2", "title=Größe"});
+  EXPECT_EQ(scene.title, "Größe");
   EXPECT_EQ(scene.lines[0].sections[0].elements, 77);
   EXPECT_EQ(scene.lines[0].sections[0].length, 200.0);
   EXPECT_EQ(scene.line_types[0].EA, 5e6);
