@@ -21,7 +21,8 @@ HAWSER_INLINE void integrate(const ElementState<S>& x, const Properties<S>& e, c
   to_modes<Shape>(x.v, y.v);
   to_modes<Shape>(x.a, y.a);
   const Coefficients<Shape, S> centre(0.0, e.length, inverse_length), outer(gauss_eta, e.length, inverse_length);
-  const Response<S> middle = middle_response<Family, want>(make_point<Family, true>(y, centre, 0.0, current), e, w);
+  Response<S> middle;
+  middle_response<Family, want>(make_point<Family, true>(y, centre, 0.0, current), e, w, middle);
   PairOf<S> pair;
   if constexpr (Family::wet || Family::bends) {
     Response<S> at[2];
@@ -30,7 +31,7 @@ HAWSER_INLINE void integrate(const ElementState<S>& x, const Properties<S>& e, c
       clear<want>(at[k]);
       Family::template add_terms<want>(make_point<Family, false>(y, outer, k == 0 ? 1.0 : -1.0, current), e, w, at[k]);
     }
-    pair = sum_and_difference<Family, want>(at[0], at[1], S(gauss_outer_weight) * e.length);
+    sum_and_difference<Family, want>(at[0], at[1], S(gauss_outer_weight) * e.length, pair);
   }
   static_for<Shape::modes>([&](auto j) __attribute__((always_inline)) {
     sum.g[j] = zero_vector<S>();

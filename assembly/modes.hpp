@@ -101,8 +101,7 @@ struct PairOf {
 };
 
 template <class Family, Want want, class S>
-HAWSER_INLINE PairOf<S> sum_and_difference(const Response<S>& plus, const Response<S>& minus, const S& weight) {
-  PairOf<S> out;
+HAWSER_INLINE void sum_and_difference(const Response<S>& plus, const Response<S>& minus, const S& weight, PairOf<S>& out) {
   const auto split = [&](auto member) __attribute__((always_inline)) {
     constexpr int count = sizeof(plus.*member) / sizeof(S);
     const S *p = reinterpret_cast<const S*>(&(plus.*member)), *m = reinterpret_cast<const S*>(&(minus.*member));
@@ -127,7 +126,6 @@ HAWSER_INLINE PairOf<S> sum_and_difference(const Response<S>& plus, const Respon
     split(&Response<S>::Jab);
     split(&Response<S>::Jbb);
   }
-  return out;
 }
 
 template <class Shape, class S>
@@ -227,8 +225,7 @@ HAWSER_INLINE void clear(Response<S>& at) {
 
 /// The middle point: the axial term with its own weight, the others with the Gauss weight, both already multiplied by l.
 template <class Family, Want want, class S>
-HAWSER_INLINE Response<S> middle_response(const Point<S>& p, const Properties<S>& e, const Weights& w) {
-  Response<S> at;
+HAWSER_INLINE void middle_response(const Point<S>& p, const Properties<S>& e, const Weights& w, Response<S>& at) {
   clear<want>(at);
   Axial::add<want>(p, e, w, at);
   // The axial rule weighs the middle by 2/3 (bar: 1), the Gauss rule by 4/9.
@@ -256,7 +253,6 @@ HAWSER_INLINE Response<S> middle_response(const Point<S>& p, const Properties<S>
       scale(at.Jbb);
     }
   }
-  return at;
 }
 
 /// From modes to node vectors: r0 = y0 - y1, r1 = y0 + y1, r0' = y2 - y3, r1' = y2 + y3 of rows and columns.

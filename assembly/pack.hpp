@@ -17,11 +17,12 @@ namespace hawser {
 
 template <int W>
 struct VectorOf;
-#define HAWSER_VECTOR(W)                                                      \
-  template <>                                                                 \
-  struct VectorOf<W> {                                                        \
-    typedef double Type __attribute__((vector_size(8 * W), aligned(8)));      \
-    typedef long long MaskType __attribute__((vector_size(8 * W)));           \
+#define HAWSER_VECTOR(W)                                                                    \
+  template <>                                                                               \
+  struct VectorOf<W> {                                                                      \
+    typedef double Type __attribute__((vector_size(8 * W)));                                \
+    typedef double InMemory __attribute__((vector_size(8 * W), aligned(8), may_alias));     \
+    typedef long long MaskType __attribute__((vector_size(8 * W)));                         \
   };
 HAWSER_VECTOR(2)
 HAWSER_VECTOR(4)
@@ -31,6 +32,7 @@ HAWSER_VECTOR(8)
 template <int W>
 struct Pack {
   using Vector = typename VectorOf<W>::Type;
+  using InMemory = typename VectorOf<W>::InMemory;  // no alignment beyond that of a double
   using Mask = typename VectorOf<W>::MaskType;
   static constexpr int width = W;
 
@@ -40,8 +42,8 @@ struct Pack {
   HAWSER_INLINE Pack(double s) : v(s - Vector{}) {}
   HAWSER_INLINE Pack(const Vector& x) : v(x) {}
 
-  HAWSER_INLINE static Pack load(const double* p) { return Pack(*reinterpret_cast<const Vector*>(p)); }
-  HAWSER_INLINE void store(double* p) const { *reinterpret_cast<Vector*>(p) = v; }
+  HAWSER_INLINE static Pack load(const double* p) { return Pack(Vector(*reinterpret_cast<const InMemory*>(p))); }
+  HAWSER_INLINE void store(double* p) const { *reinterpret_cast<InMemory*>(p) = v; }
 
   friend HAWSER_INLINE Pack operator+(const Pack& a, const Pack& b) { return Pack(a.v + b.v); }
   friend HAWSER_INLINE Pack operator-(const Pack& a, const Pack& b) { return Pack(a.v - b.v); }
