@@ -10,6 +10,7 @@ constexpr double slope_cap = 0.5;       // largest change of r' in one step
 constexpr double position_cap = 0.1;    // largest change of r, of L
 constexpr double floor_factor = 0.2;    // after a full step
 constexpr double floor_negligible = 1e-8;  // of its start: then the exact matrix, also where no tension is left
+constexpr double roundoff_scatter = 2.0;   // rounding was seen up to 1.9 times its floor (theory 6.1)
 constexpr double roundoff_margin = 20.0;   // a stalled residual below this many round-off floors counts as rounding
 constexpr int stalled_steps = 4;           // full steps that no longer lower the residual
 constexpr int resting_steps = 12;          // steps with the residual at rounding, whatever the increments
@@ -82,7 +83,7 @@ NewtonReport newton(NewtonSystem& system, const NewtonOptions& options) {
     report.residuals.push_back(report.residual);
     const bool full = factor == 1.0;
     const bool small = full && size.scaled <= options.increment_tolerance * options.length;
-    if (small && report.residual <= std::max(system.tolerance(), system.roundoff())) {
+    if (small && report.residual <= std::max(system.tolerance(), roundoff_scatter * system.roundoff())) {
       report.status = NewtonStatus::converged;
       return report;
     }

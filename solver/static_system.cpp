@@ -25,13 +25,13 @@ LeastTension least_strain_tension(const Model& model, const State& state) {
   return least;
 }
 
-StaticSystem::StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, bool exact_compression, State& state)
+StaticSystem::StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, double exact_below, State& state)
     : assembler_(assembler),
       model_(assembler.model()),
       linear_(linear),
       state_(state),
       relative_tolerance_(tolerance > 0.0 ? tolerance : automatic_tolerance),
-      exact_compression_(exact_compression),
+      exact_below_(exact_below),
       tangent_(assembler.make_tangent()),
       r_(model_.unknowns),
       rhs_(model_.dofs),
@@ -46,14 +46,15 @@ double StaticSystem::residual() {
   reference_force_ = hawser::reference_force(model_, r_);
   roundoff_ = roundoff_force(model_, state_);
   assembler_.project(r_);
-  return residual_norm(model_, r_);
+  residual_ = residual_norm(model_, r_);
+  return residual_;
 }
 
 double StaticSystem::least_tension() { return least_strain_tension(model_, state_).value; }
 
 bool StaticSystem::solve(double floor) {
-  const bool keep = !exact_compression_ || floor > 0.0 || least_tension() > -10.0 * least_kept_;
-  assembler_.tangent(state_, static_weights, {floor, keep, floor > 0.0}, r_, tangent_);
+  const bool exact = floor == 0.0 && residual_ <= exact_below_ * reference_force_ && least_tension() < -10.0 * least_kept_;
+  assembler_.tangent(state_, static_weights, {floor, !exact, floor > 0.0}, r_, tangent_);
   assembler_.reduce(tangent_, r_, rhs_);
   assembler_.project(r_);
   factor_report_ = factorize();

@@ -14,9 +14,10 @@ namespace hawser {
 class StaticSystem : public NewtonSystem {
  public:
   /// tolerance: relative to the reference force; 0: automatic. Everything referred to must outlive the system.
-  /// exact_compression: keep the least tension only while nothing is compressed. Near a bare end the discrete solution has
-  /// slightly negative strain tensions, from which the exact matrix converges quadratically and the kept one linearly.
-  StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, bool exact_compression, State& state);
+  /// exact_below: of the reference force; while the residual is larger, compressed points too keep their least tension in the
+  /// matrix. That leads away from unstable states but converges linearly where a stable one is compressed somewhere (a beam
+  /// below its Euler load, the last element of a bare end); there the exact matrix converges quadratically.
+  StaticSystem(const Assembler& assembler, LinearSolver& linear, double tolerance, double exact_below, State& state);
 
   double residual() override;
   double tolerance() override { return relative_tolerance_ * reference_force_; }
@@ -39,10 +40,10 @@ class StaticSystem : public NewtonSystem {
   LinearSolver& linear_;
   State& state_;
   double relative_tolerance_;
-  bool exact_compression_;
+  double exact_below_;
   Tangent tangent_;
   std::vector<double> r_, rhs_, d_;
-  double reference_force_ = 0.0, roundoff_ = 0.0;
+  double residual_ = 0.0, reference_force_ = 0.0, roundoff_ = 0.0;  // N
   double least_kept_ = 0.0;  // N, largest Model::minimum_tension
   bool modified_ = false;
   FactorReport factor_report_;

@@ -23,7 +23,7 @@ struct StaticOptions {
   StaticStart start = StaticStart::catenary;
   LinearSolverKind linear_solver = LinearSolverKind::automatic;
   double tolerance = 0.0;    // relative residual (theory 6.1); 0: automatic
-  int max_iterations = 200;  // factorizations, over all stages
+  int max_iterations = 400;  // factorizations, over all stages
   int threads = 1;
   std::function<void(const std::string&)> log;  // one line per stage; may be empty
 };
