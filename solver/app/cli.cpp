@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <map>
 #include <thread>
 
 #include "solver/app/command_check.hpp"
@@ -52,11 +51,13 @@ void add_common(CLI::App& command, Request& request) {
 }
 
 void add_static(CLI::App& command, Request& request) {
-  const std::map<std::string, StaticStart> starts{{"catenary", StaticStart::catenary}, {"straight", StaticStart::straight}};
-  auto* start = command.add_option("--start", request.start, "first guess: catenary (default) or straight")
-                    ->transform(CLI::CheckedTransformer(starts).description(""))
-                    ->type_name("catenary|straight");
-  command.add_option("--from", request.from, "first guess: the last state of a result on the same mesh")->type_name("result.h5")->excludes(start);
+  auto* start = command
+                    .add_option_function<std::string>(
+                        "--start", [&request](const std::string& name) { request.start = name == "straight" ? StaticStart::straight : StaticStart::catenary; },
+                        "first guess: catenary (default) or straight")
+                    ->check(CLI::IsMember({"catenary", "straight"}).description(""))
+                    ->type_name("NAME");
+  command.add_option("--from", request.from, "first guess: the last state of a result on the same mesh")->type_name("FILE")->excludes(start);
   command.add_option("--stations", request.stations, "even stations in the JSON document (default: the nodes)")->check(CLI::Range(2, 10'000'000))->type_name("N");
   command.add_option("--out", request.out, "folder for static.json, result.h5 and pictures")->type_name("DIR");
   command

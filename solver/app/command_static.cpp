@@ -38,6 +38,18 @@ void draw(const fs::path& folder, const Scene& scene, const Model& model, const 
   if (!report.trouble.empty()) say_warning(report.trouble);
 }
 
+/// The shape of a stored state, with the supports where this scene has them at t = 0, at rest or under tow.
+State given_start(const Model& model, const std::string& path) {
+  State state = static_start(model, StaticStart::straight);
+  const std::vector<double> velocities = state.v;
+  state.q = read_last_state(path, model).q;
+  model.prescribe(state);
+  model.align_clamps(state);
+  state.v = velocities;
+  state.a.assign(state.a.size(), 0.0);
+  return state;
+}
+
 }  // namespace
 
 StaticSolution solve_requested_static(const Request& request, const Scene& scene, const Assembler& assembler) {
@@ -52,7 +64,7 @@ StaticSolution solve_requested_static(const Request& request, const Scene& scene
   StaticSolution solution;
   solution.state = model.make_state();
   if (!request.from.empty()) {
-    solution.state.q = read_last_state(request.from, model).q;
+    solution.state = given_start(model, request.from);
     options.start = StaticStart::given;
   }
   const Clock::time_point start = Clock::now();

@@ -64,6 +64,11 @@ Json failure_json(const Failure& failure) {
   return {{"what", failure.what}, {"line", failure.line}, {"s", failure.s}, {"cause", failure.cause}, {"remedy", failure.remedy}};
 }
 
+/// A force for people: what is below the accuracy of the solve is rounding and shown as zero.
+std::string force_text(double force, const StaticReport& report) {
+  return with_prefix(std::abs(force) < 1e-9 * report.reference_force ? 0.0 : force, "N");
+}
+
 }  // namespace
 
 Json static_document(const Model& model, const StaticSolution& solution, int stations) {
@@ -106,7 +111,8 @@ std::string static_text(const Scene& scene, const Model& model, const StaticSolu
     const LineResult r = observe_line(model, solution.state, i);
     const double error = solution.error_estimates[static_cast<std::size_t>(i)];
     lines.push_back({line.name, name_of(line.family), fmt::format("{}", line.elements), fmt::format("{:.6g} m", line.length),
-                     with_prefix(r.tension_from, "N"), with_prefix(r.tension_to, "N"), with_prefix(r.tension_min, "N"), with_prefix(r.tension_max, "N"),
+                     force_text(r.tension_from, report), force_text(r.tension_to, report), force_text(r.tension_min, report),
+                     force_text(r.tension_max, report),
                      std::isfinite(error) ? fmt::format("{:.1e}", error) : "?"});
   }
   std::vector<std::vector<std::string>> points{{"point", "x [m]", "y [m]", "z [m]", "force x", "force y", "force z"}};
@@ -114,7 +120,7 @@ std::string static_text(const Scene& scene, const Model& model, const StaticSolu
   for (std::size_t i = 0; i < results.size(); ++i) {
     std::vector<std::string> row{model.points[i].name};
     for (int axis = 0; axis < 3; ++axis) row.push_back(fmt::format("{:.3f}", results[i].position[axis]));
-    for (int axis = 0; axis < 3; ++axis) row.push_back(with_prefix(results[i].force[axis], "N"));
+    for (int axis = 0; axis < 3; ++axis) row.push_back(force_text(results[i].force[axis], report));
     points.push_back(row);
   }
   return fmt::format("{}\n{} equilibrium after {} factorizations ({}), residual {:.1e} of {}, {:.3g} s\n\n{}\n{}", scene.title,

@@ -102,7 +102,7 @@ std::string profile_script(const PlotData& data) {
   const Box box = box_of(data.shapes);
   const double small = 1e-3 * box.largest();
   std::string text = gnuplot_head("profile", data.title);
-  text += data.in_time ? "set key outside bottom center horizontal\n" : "unset key\n";
+  text += data.in_time ? "set key outside top center horizontal nobox noopaque\n" : "unset key\n";
   constexpr double whole = 1.6, half = 0.75;  // width over height of the room for one panel and for two
   if (box.extent(1) <= small) return text + shape_panel(data, box, 0, 2, whole);
   if (box.extent(0) <= small) return text + shape_panel(data, box, 1, 2, whole);

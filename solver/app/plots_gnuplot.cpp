@@ -16,6 +16,7 @@ std::string run_gnuplot(const std::filesystem::path& folder, const std::string& 
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 2, "gnuplot.log", O_WRONLY | O_CREAT | O_TRUNC, 0644);
   std::string program = "gnuplot", file = script;
   char* arguments[] = {program.data(), file.data(), nullptr};
   pid_t child = 0;
@@ -25,7 +26,7 @@ std::string run_gnuplot(const std::filesystem::path& folder, const std::string& 
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  return fmt::format("gnuplot failed on {}", (folder / script).string());
+  return fmt::format("gnuplot failed on {}: see {}", (folder / script).string(), (folder / "gnuplot.log").string());
 }
 
 std::string gnuplot_quoted(const std::string& text) {

@@ -40,10 +40,10 @@ std::string cell(const std::string& text) {
 std::vector<std::vector<double>> stations_of(const Scene& scene, const Model& model) {
   std::vector<std::vector<double>> result(model.lines.size());
   for (const auto& [name, arc_lengths] : scene.output.stations) {
-    const auto line = std::find_if(model.lines.begin(), model.lines.end(), [&](const Line& l) { return l.name == name; });
+    const auto line = std::find_if(model.lines.begin(), model.lines.end(), [&wanted = name](const Line& l) { return l.name == wanted; });
     if (line == model.lines.end()) continue;
-    auto& wanted = result[static_cast<std::size_t>(line - model.lines.begin())];
-    wanted.insert(wanted.end(), arc_lengths.begin(), arc_lengths.end());
+    auto& stations = result[static_cast<std::size_t>(line - model.lines.begin())];
+    stations.insert(stations.end(), arc_lengths.begin(), arc_lengths.end());
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/app/text.hpp"
 
@@ -86,9 +87,11 @@ std::string run_text(const Scene& scene, const Model& model, const RunRecord& ru
     const TensionRange& range = ranges[i];
     if (range.count == 0) continue;
     const Line& line = model.lines[i];
+    const double greatest = *std::max_element(range.high.begin(), range.high.end());
+    // What is far below the accuracy of a step is rounding and shown as zero.
+    const auto force = [&](double value) { return with_prefix(std::abs(value) < 1e-7 * greatest ? 0.0 : value, "N"); };
     const auto add = [&](const std::string& where, std::size_t k) {
-      rows.push_back({line.name, where, with_prefix(range.low[k], "N"), with_prefix(range.sum[k] / static_cast<double>(range.count), "N"),
-                      with_prefix(range.high[k], "N")});
+      rows.push_back({line.name, where, force(range.low[k]), force(range.sum[k] / static_cast<double>(range.count)), force(range.high[k])});
     };
     add(model.points[static_cast<std::size_t>(line.from)].name, 0);
     add(model.points[static_cast<std::size_t>(line.to)].name, range.s.size() - 1);

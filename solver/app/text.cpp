@@ -18,7 +18,8 @@ std::string with_prefix(double value, std::string_view unit) {
   static constexpr std::array<Prefix, 5> prefixes{{{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}}};
   // 999.5 already prints as 1000 with three digits, so it belongs to the next prefix.
   const double size = std::abs(value) * (1.0 + 5e-4);
-  if (!std::isfinite(value) || value == 0.0 || size < 1e-3) return fmt::format("{:.3g} {}", value, unit);
+  if (value == 0.0) return fmt::format("0 {}", unit);
+  if (!std::isfinite(value) || size < 1e-3) return fmt::format("{:.3g} {}", value, unit);
   const auto prefix = std::find_if(prefixes.begin(), prefixes.end() - 1, [&](const Prefix& p) { return size >= p.factor; });
   const double scaled = value / prefix->factor;
   const double digits = std::abs(scaled);
