@@ -137,7 +137,7 @@ TimeForce read_time_force(TableReader& table, std::string_view key, const Kind& 
   if (reader.find("table")) {
     out.table = read_time_table(reader, kind);
   } else if (reader.find(pulse)) {
-    TimeForce::Pulse& shaped = out.pulse.emplace();
+    TimeForce::Pulse& shaped = out.pulse.emplace(TimeForce::Pulse{});
     shaped.force = reader.vector(pulse, kind);
     if (reader.require("shape")) reader.choice("shape", {"sin2"});
     shaped.duration = reader.number("duration", {kinds::time, positive});
