@@ -6,9 +6,9 @@
 namespace hawser {
 namespace {
 
-constexpr double slope_cap = 0.5;       // largest change of r' in one step
-constexpr double position_cap = 0.1;    // largest change of r, of L
-constexpr double floor_factor = 0.2;    // after a full step
+constexpr double slope_cap = 0.5;          // largest change of r' in one step
+constexpr double position_cap = 0.1;       // largest change of r, of L
+constexpr double floor_factor = 0.2;       // after a full step
 constexpr double floor_negligible = 1e-8;  // of its start: then the exact matrix, also where no tension is left
 constexpr double roundoff_scatter = 2.0;   // rounding was seen up to 1.9 times its floor (theory 6.1)
 constexpr double roundoff_margin = 20.0;   // a stalled residual below this many round-off floors counts as rounding

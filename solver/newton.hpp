@@ -42,12 +42,12 @@ struct NewtonOptions {
   double floor = 0.0;                 // T_f at the start [N]; 0: the exact matrix from the first iteration
   double increment_tolerance = 1e-8;  // of the last increment, relative to L
   int max_iterations = 200;
-  bool inexact_matrix = false;        // the matrix is not the tangent (modified Newton): once the floor is gone, halve steps that raise the residual
+  bool inexact_matrix = false;  // the matrix is not the tangent (modified Newton): once the floor is gone, halve steps that raise the residual
 };
 
 enum class NewtonStatus {
   converged,
-  roundoff,  // stands still a little above the tolerance, where rounding holds it: as good as converged
+  roundoff,      // stands still a little above the tolerance, where rounding holds it: as good as converged
   no_increment,  // the matrix could not be factorized
   not_finite,
   too_many_iterations,
@@ -56,8 +56,8 @@ enum class NewtonStatus {
 struct NewtonReport {
   NewtonStatus status = NewtonStatus::too_many_iterations;
   int factorizations = 0;
-  double residual = 0.0;                // N, at the last point
-  std::vector<double> residuals;        // N, at every point from the first one
+  double residual = 0.0;          // N, at the last point
+  std::vector<double> residuals;  // N, at every point from the first one
   bool converged() const { return status == NewtonStatus::converged || status == NewtonStatus::roundoff; }
 };
 

@@ -42,9 +42,7 @@ WorstNode worst_node(const Model& model, std::span<const double> r) {
 
 double residual_norm(const Model& model, std::span<const double> r) {
   double norm = 0.0;
-  for_each_node(model, r, [&](int, int, double force, double moment, double l) {
-    norm = larger(larger(force, moment / l), norm);
-  });
+  for_each_node(model, r, [&](int, int, double force, double moment, double l) { norm = larger(larger(force, moment / l), norm); });
   return norm;
 }
 
@@ -79,8 +77,7 @@ double largest_nodal_load(const Model& model) {
 
 double reference_force(const Model& model, std::span<const double> unprojected) {
   double largest = largest_nodal_load(model);
-  for (const Support& support : model.supports)
-    largest = std::max(largest, ConstVec3(&unprojected[model.dof(support.line, support.node)]).norm());
+  for (const Support& support : model.supports) largest = std::max(largest, ConstVec3(&unprojected[model.dof(support.line, support.node)]).norm());
   return largest;
 }
 

@@ -54,8 +54,9 @@ Failure explain_failure(const Model& model, const State& state, const StaticSyst
   const Line& line = model.lines[worst.line];
   failure.line = line.name;
   failure.s = line.s[worst.node];
-  failure.what = fmt::format("static equilibrium not found: residual {:.3g} N is {:.1e} of {:.4g} N after {} factorizations, largest in the {}",
-                             newton.residual, report.residual, report.reference_force, report.iterations, worst.slope ? "slope equation" : "force balance");
+  failure.what =
+      fmt::format("static equilibrium not found: residual {:.3g} N is {:.1e} of {:.4g} N after {} factorizations, largest in the {}", newton.residual,
+                  report.residual, report.reference_force, report.iterations, worst.slope ? "slope equation" : "force balance");
   if (system.factor_report().status != FactorStatus::ok && newton.status == NewtonStatus::no_increment) {
     failure.cause = fmt::format("the tangent could not be factorized by {}: {}", report.linear_solver, system.factor_report().message);
     failure.remedy = system.factor_report().status == FactorStatus::not_applicable
@@ -65,8 +66,10 @@ Failure explain_failure(const Model& model, const State& state, const StaticSyst
     failure.cause = fmt::format("{} takes symmetric matrices only and the drag is too strong for the symmetric part alone", report.linear_solver);
     failure.remedy = "use linear_solver = \"chain\"";
   } else if (least.value < 0.0) {
-    failure.cause = fmt::format("the line went slack: strain tension {:.4g} N at s = {:.6g} m of \"{}\"", least.value, least.s, model.lines[least.line].name);
-    failure.remedy = "give the line type a small EI, use more elements there, or solve first with less current or a shorter line and continue with --from";
+    failure.cause =
+        fmt::format("the line went slack: strain tension {:.4g} N at s = {:.6g} m of \"{}\"", least.value, least.s, model.lines[least.line].name);
+    failure.remedy =
+        "give the line type a small EI, use more elements there, or solve first with less current or a shorter line and continue with --from";
   } else {
     failure.cause = "the first guess is too far away, or the elements are too long for the bends or the current";
     failure.remedy = "double the elements, try --start straight, or solve first with less current and continue with --from";

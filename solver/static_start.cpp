@@ -172,8 +172,7 @@ void apply_supports(const Model& model, State& state) {
 
 State static_start(const Model& model, StaticStart start) {
   State state = model.make_state();
-  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line)
-    write_shape(model, line, start_of_line(model, line, start), state);
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) write_shape(model, line, start_of_line(model, line, start), state);
   apply_supports(model, state);
   return state;
 }

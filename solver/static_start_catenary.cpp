@@ -106,8 +106,8 @@ Mat3 catenary_compliance(const CatenarySegment& segment, const Vec3& F, double s
   const Split f(segment.load, F, s);
   const double cosine = f.delta_cosine(), HA = f.H * f.delta_inverse_T();
   const Mat3 across = Mat3::Identity() - f.e * f.e.transpose();
-  return s / segment.EA * Mat3::Identity() + f.A() * across - cosine * f.n * f.n.transpose() +
-         HA * (f.n * f.e.transpose() + f.e * f.n.transpose()) + cosine * f.e * f.e.transpose();
+  return s / segment.EA * Mat3::Identity() + f.A() * across - cosine * f.n * f.n.transpose() + HA * (f.n * f.e.transpose() + f.e * f.n.transpose()) +
+         cosine * f.e * f.e.transpose();
 }
 
 EndForce solve_end_force(const std::vector<CatenarySegment>& segments, const Vec3& chord) {

@@ -44,7 +44,7 @@ class StaticSystem : public NewtonSystem {
   Tangent tangent_;
   std::vector<double> r_, rhs_, d_;
   double residual_ = 0.0, reference_force_ = 0.0, roundoff_ = 0.0;  // N
-  double least_kept_ = 0.0;  // N, largest Model::minimum_tension
+  double least_kept_ = 0.0;                                         // N, largest Model::minimum_tension
   bool modified_ = false;
   FactorReport factor_report_;
 };

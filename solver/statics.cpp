@@ -16,12 +16,12 @@
 namespace hawser {
 namespace {
 
-constexpr int unfloored_iterations = 30;  // of one stage; a good start needs a tenth of them
-constexpr int floored_iterations = 150;   // of one stage; a straight start needs a quarter of them
+constexpr int unfloored_iterations = 30;   // of one stage; a good start needs a tenth of them
+constexpr int floored_iterations = 150;    // of one stage; a straight start needs a quarter of them
 constexpr double beam_exact_below = 1e-4;  // residual over reference force: near a solution
 constexpr double loose_tolerance = 1e-6;   // theory 6.1, where the automatic one cannot be reached (slope of a bare end)
 constexpr double loose_increment = 1e-4;   // of the length
-constexpr double floor_share = 0.25;      // of the load: T_f = 0.25 w L (theory 7.2)
+constexpr double floor_share = 0.25;       // of the load: T_f = 0.25 w L (theory 7.2)
 
 double longest_line(const Model& model) {
   double longest = 0.0;
@@ -112,7 +112,7 @@ class StaticSolver {
     if (*std::max_element(model_.element.EI.begin(), model_.element.EI.end()) <= 0.0) return false;
     Model limp = model_;
     std::fill(limp.element.EI.begin(), limp.element.EI.end(), 0.0);
-    const Assembler limp_assembler(limp, options_.threads);
+    const Assembler limp_assembler(limp, std::max(1, options_.threads));
     state_ = static_start(limp, StaticStart::catenary);
     if (!converges(limp_assembler, "without bending stiffness", floor_)) return false;
     const State start = state_;
@@ -189,7 +189,7 @@ std::vector<double> estimate_static_error(const Scene& scene, const StaticOption
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> estimate(model.lines.size(), unknown);
   const Model coarse = build_model(coarsened(scene));
-  const Assembler assembler(coarse, options.threads);
+  const Assembler assembler(coarse, std::max(1, options.threads));
   StaticOptions coarse_options = options;
   coarse_options.start = StaticStart::catenary;
   coarse_options.log = nullptr;

@@ -38,15 +38,15 @@ struct Failure {
 
 struct StaticReport {
   bool converged = false;
-  int iterations = 0;        // factorizations
-  double residual = 0.0;     // scaled, relative to the reference force (theory 6.1)
+  int iterations = 0;                                                        // factorizations
+  double residual = 0.0;                                                     // scaled, relative to the reference force (theory 6.1)
   double residual_force = 0.0, reference_force = 0.0, roundoff_floor = 0.0;  // N
   bool stable = false;
-  int negative_pivots = 0;   // of the elastic tangent (drag and applied moments left out); 0 where every point is in tension
+  int negative_pivots = 0;  // of the elastic tangent (drag and applied moments left out); 0 where every point is in tension
   std::string linear_solver;
-  bool modified_newton = false;  // the symmetric part was factorized
+  bool modified_newton = false;     // the symmetric part was factorized
   std::vector<std::string> stages;  // what was tried, in order
-  Failure failure;           // where !converged
+  Failure failure;                  // where !converged
 };
 
 /// Fills `state` with the equilibrium; on failure `state` is what the last stage left.

@@ -15,8 +15,8 @@ class Scalar : public NewtonSystem {
   double (*df)(double);
   double x = 0.0;
   double accept = 1e-14, rounding = 1e-16;
-  double noise = 0.0;    // added to the residual: what rounding leaves
-  double slope = 0.0;    // of the increment, per metre: for the cap
+  double noise = 0.0;  // added to the residual: what rounding leaves
+  double slope = 0.0;  // of the increment, per metre: for the cap
   bool solvable = true;
   std::vector<double> floors;  // asked for
 

@@ -132,8 +132,13 @@ TEST(StaticStart, MarchFromAFreeEndMeetsTheTowReference) {
   type.drag_tangential = 0.01;
   BodySpec body = weight(8000.0);
   body.drag_area = 0.5;
-  const Scene scene =
-      SceneBuilder().type(type).towed("ship", {0, 0, 0}, {3, 0, 0}).free("fish", {-900, 0, -200}, body).line("fish", "ship").section("U40", 1000.0, 400).scene;
+  const Scene scene = SceneBuilder()
+                          .type(type)
+                          .towed("ship", {0, 0, 0}, {3, 0, 0})
+                          .free("fish", {-900, 0, -200}, body)
+                          .line("fish", "ship")
+                          .section("U40", 1000.0, 400)
+                          .scene;
   const Model model = build_model(scene);
   const LineShape shape = march_from_free_end(model, 0, Vec3::Zero());
   // Runge-Kutta of order 4 with steps of 0.6 m on a shape that bends within 100 m: 1e-9 of the length.
@@ -174,8 +179,7 @@ TEST(StaticStart, BareEndLeavesAlongItsLoadAtTheCriticalAngle) {
                           .scene;
   const Model model = build_model(scene);
   const LineShape shape = march_from_free_end(model, 0, Vec3::Zero());
-  for (const Vec3& slope : shape.right)
-    EXPECT_NEAR(std::atan2(-slope.z(), slope.x()), reference.value("critical angle from horizontal"), 1e-12);
+  for (const Vec3& slope : shape.right) EXPECT_NEAR(std::atan2(-slope.z(), slope.x()), reference.value("critical angle from horizontal"), 1e-12);
 }
 
 TEST(StaticStart, StraightStartLiesEvenlyOnTheChordWithItsStretch) {
@@ -198,7 +202,8 @@ TEST(StaticStart, StraightStartOfAFreeEndIsUnstrainedTowardsItsGuess) {
 }
 
 TEST(StaticStart, EveryNodeHasTheVelocityOfTheTow) {
-  const Scene scene = SceneBuilder().type(u40()).towed("s", {0, 0, 0}, {1, 2, 0}).free("b", {0, 0, -90}, weight(10.0)).line("s", "b").section("U40", 100.0, 5).scene;
+  const Scene scene =
+      SceneBuilder().type(u40()).towed("s", {0, 0, 0}, {1, 2, 0}).free("b", {0, 0, -90}, weight(10.0)).line("s", "b").section("U40", 100.0, 5).scene;
   const Model model = build_model(scene);
   const State state = static_start(model, StaticStart::catenary);
   for (int i = 0; i < 6; ++i) {

@@ -170,7 +170,8 @@ TEST(Statics, CompressedColumnIsNeverAccepted) {
       EXPECT_EQ(report.converged, report.stable);
       if (report.converged) {  // off the column: the line hangs out sideways
         double sideways = 0.0;
-        for (int i = 0; i < model.lines[0].nodes; ++i) sideways = std::max(sideways, std::abs(state.q[model.dof(0, i)]) + std::abs(state.q[model.dof(0, i) + 1]));
+        for (int i = 0; i < model.lines[0].nodes; ++i)
+          sideways = std::max(sideways, std::abs(state.q[model.dof(0, i)]) + std::abs(state.q[model.dof(0, i) + 1]));
         EXPECT_GT(sideways, 0.1);
       } else {
         EXPECT_FALSE(report.failure.what.empty());
@@ -235,7 +236,8 @@ TEST(Statics, TowThroughStillWaterEqualsTheOppositeCurrent) {
 }
 
 TEST(Statics, LineThatNothingHoldsIsRefused) {
-  const Model model = build_model(SceneBuilder().type(u40()).free("a", {0, 0, 0}).free("b", {0, 0, -90}).line("a", "b").section("U40", 100.0, 5).scene);
+  const Model model =
+      build_model(SceneBuilder().type(u40()).free("a", {0, 0, 0}).free("b", {0, 0, -90}).line("a", "b").section("U40", 100.0, 5).scene);
   State state;
   const StaticReport report = solve(model, state);
   EXPECT_FALSE(report.converged);
@@ -247,7 +249,14 @@ TEST(Statics, LineThatNothingHoldsIsRefused) {
 
 TEST(Statics, SlackLineWithoutLoadIsRefusedAndATautOneIsSolved) {
   const auto scene = [](double L) {
-    return SceneBuilder().dry().type(line_type("thread", 1.0e5, 0.0)).fixed("a", {0, 0, 0}).fixed("b", {100, 0, 0}).line("a", "b").section("thread", L, 10).scene;
+    return SceneBuilder()
+        .dry()
+        .type(line_type("thread", 1.0e5, 0.0))
+        .fixed("a", {0, 0, 0})
+        .fixed("b", {100, 0, 0})
+        .line("a", "b")
+        .section("thread", L, 10)
+        .scene;
   };
   const Model slack = build_model(scene(101.0));
   State state;

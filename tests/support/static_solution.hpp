@@ -51,8 +51,7 @@ struct Numbers {
 inline Numbers refined(const std::function<std::vector<double>(int)>& solve, int n, int order = 4) {
   const std::vector<double> coarse = solve(n);
   Numbers result{solve(2 * n), {}};
-  for (std::size_t i = 0; i < coarse.size(); ++i)
-    result.error.push_back(2.0 * std::abs(result.value[i] - coarse[i]) / (std::pow(2.0, order) - 1.0));
+  for (std::size_t i = 0; i < coarse.size(); ++i) result.error.push_back(2.0 * std::abs(result.value[i] - coarse[i]) / (std::pow(2.0, order) - 1.0));
   return result;
 }
 

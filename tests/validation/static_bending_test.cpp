@@ -67,8 +67,7 @@ TEST(StaticElastica, ExtensibleCantileverUnderTipForceMeetsTheReference) {
   for (const auto& row : reference.value<Table>("table")) {
     Cantilever cantilever{row[1], 1.0, 0.0, row[0]};
     const Numbers got = refined([&](int n) { return cantilever.values(n); }, 64);
-    for (int i = 0; i < 3; ++i)
-      expect("tip", got.value[i], row[2 + i], std::max({1e-14, got.error[i], cantilever.noise}), i == 0 ? 1e-6 : 1e-7);
+    for (int i = 0; i < 3; ++i) expect("tip", got.value[i], row[2 + i], std::max({1e-14, got.error[i], cantilever.noise}), i == 0 ? 1e-6 : 1e-7);
   }
 }
 
@@ -76,7 +75,8 @@ TEST(StaticElastica, InextensibleCantileverUnderTipForceMeetsTheTable) {
   const ReferenceCase reference("static_elastica_cantilever_tipforce");
   const auto load = reference.parameter("PL2_over_EI").get<std::vector<double>>();
   const auto angle = reference.value<std::vector<double>>("tip_angle"), x = reference.value<std::vector<double>>("tip_x/L (along undeformed axis)");
-  const auto y = reference.value<std::vector<double>>("tip_y/L (Mattiasson w/L)"), moment = reference.value<std::vector<double>>("clamp_moment ML/EI");
+  const auto y = reference.value<std::vector<double>>("tip_y/L (Mattiasson w/L)"),
+             moment = reference.value<std::vector<double>>("clamp_moment ML/EI");
   for (std::size_t k = 0; k < load.size(); ++k) {
     double noise = 0.0;
     const auto elastic = [&](double EA) {
@@ -191,7 +191,8 @@ TEST_P(StiffCatenary, EndForcesMomentsAndStationsMeetTheReference) {
       b.clamp_from({std::cos(angle[0]), 0, std::sin(angle[0])}).clamp_to({std::cos(angle[1]), 0, std::sin(angle[1])});
       const StaticSolution s(b.scene);
       noise = std::max(noise, 2.0 * s.report.roundoff_floor);
-      std::vector<double> v{s.line.tension_from, s.line.tension_to, std::abs(s.line.force_from.x()), s.line.moment_from.norm(), s.line.moment_to.norm()};
+      std::vector<double> v{s.line.tension_from, s.line.tension_to, std::abs(s.line.force_from.x()), s.line.moment_from.norm(),
+                            s.line.moment_to.norm()};
       for (int k = 0; k <= 10; ++k) {
         const Vec3 r = s.station(0.1 * k * L).position;
         v.insert(v.end(), {r.x(), r.z()});

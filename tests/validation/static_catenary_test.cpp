@@ -50,9 +50,9 @@ struct CatenaryCase {
 
 struct CatenaryTest {
   const char* name;
-  int n;              // coarse mesh; the values are those of 2n
-  double EA_ratio;    // EA over the largest tension, where the reference is inextensible
-  double largest;     // bound on the tolerance of forces, relative to the largest tension
+  int n;            // coarse mesh; the values are those of 2n
+  double EA_ratio;  // EA over the largest tension, where the reference is inextensible
+  double largest;   // bound on the tolerance of forces, relative to the largest tension
 };
 
 class Catenary : public ::testing::TestWithParam<CatenaryTest> {};
@@ -99,8 +99,14 @@ TEST(StaticCatenary, SagOfFiveSpansHasItsClosedForm) {
   const double w = reference.parameter("w"), span = reference.parameter("span"), sag = reference.parameter("sag");
   double noise = 0.0;
   const auto values = [&](double EA, int n) {
-    const StaticSolution s(
-        SceneBuilder().dry().type(line_type("cable", EA, w)).fixed("a", {0, 0, 0}).fixed("b", {span, 0, 0}).line("a", "b").section("cable", L, n).scene);
+    const StaticSolution s(SceneBuilder()
+                               .dry()
+                               .type(line_type("cable", EA, w))
+                               .fixed("a", {0, 0, 0})
+                               .fixed("b", {span, 0, 0})
+                               .line("a", "b")
+                               .section("cable", L, n)
+                               .scene);
     noise = std::max(noise, 2.0 * s.report.roundoff_floor);
     return std::vector<double>{s.line.tension_from, s.line.force_from.head<2>().norm(), -s.station(0.5 * L).position.z()};
   };
@@ -118,7 +124,8 @@ TEST(StaticCatenary, VerticalLineWithClumpHasItsClosedFormOnAnyMesh) {
   const double L = reference.parameter("L0"), EA = reference.parameter("EA"), P = reference.parameter("P_bottom");
   LineType type = line_type("cable", EA, reference.parameter("w"));
   for (const int n : {1, 7, 200}) {
-    const StaticSolution s(SceneBuilder().dry().type(type).fixed("a", {0, 0, 0}).free("b", {0, 0, -L}, weight(P)).line("a", "b").section("cable", L, n).scene);
+    const StaticSolution s(
+        SceneBuilder().dry().type(type).fixed("a", {0, 0, 0}).free("b", {0, 0, -L}, weight(P)).line("a", "b").section("cable", L, n).scene);
     // The solution is quadratic in s and lies in the space of the elements: only rounding is left. Positions: a force error
     // f stretches the line by f L/EA, less than 4 eps of its length.
     const double noise = 2.0 * s.report.roundoff_floor, position = 4.0 * 2.3e-16 * L + noise * L / EA;
@@ -143,7 +150,7 @@ TEST(StaticCatenary, LazyWaveOfThreeSectionsHasItsClosedForm) {
     const StaticSolution s(b.scene);
     noise = std::max(noise, 2.0 * s.report.roundoff_floor);
     const Station first = s.station(150.0), second = s.station(250.0);
-    return std::vector<double>{s.line.tension_from, s.line.tension_to, s.line.force_from.head<2>().norm(), first.position.x(), first.position.z(),
+    return std::vector<double>{s.line.tension_from, s.line.tension_to,  s.line.force_from.head<2>().norm(), first.position.x(), first.position.z(),
                                second.position.x(), second.position.z()};
   };
   const Numbers got = refined(values, 100);

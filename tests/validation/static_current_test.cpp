@@ -49,7 +49,7 @@ TEST_P(FixedEnds, EndForcesAndStationsMeetTheReference) {
     noise.add(s, s.line.tension_from);
     // what the line exerts on its `from` point is its internal force there, on `to` the opposite
     std::vector<double> v{s.line.force_from.x(), s.line.force_from.y(), s.line.force_from.z(),
-                          -s.line.force_to.x(), -s.line.force_to.y(), -s.line.force_to.z()};
+                          -s.line.force_to.x(),  -s.line.force_to.y(),  -s.line.force_to.z()};
     for (int k = 0; k <= 10; ++k)
       for (const double x : s.station(500.0 * k).position) v.push_back(x);
     return v;
@@ -191,7 +191,8 @@ TEST(StaticTow, TowThroughAPowerLawCurrentMeetsTheReference) {
   const Numbers got = refined(values, 1600);
   const auto position = reference.value<std::vector<double>>("body position" + unstretched);
   const auto force = reference.value<std::vector<double>>("force vector at top (on the cable end, Tx,Ty,Tz)" + unstretched);
-  const double expected[] = {reference.value("T_body" + unstretched), reference.value("T_top" + unstretched), force[0], force[2], position[0], position[2]};
+  const double expected[] = {
+      reference.value("T_body" + unstretched), reference.value("T_top" + unstretched), force[0], force[2], position[0], position[2]};
   for (int i = 0; i < 6; ++i) {
     const double tolerance = std::max({1e-6, got.error[i], i < 4 ? noise.force + table * 35e3 : noise.position + table * 3000.0});
     expect("tow", got.value[i], expected[i], tolerance, 2e-3);
