@@ -45,7 +45,7 @@ std::string render_all(const std::vector<Diagnostic>& diagnostics) {
   for (std::size_t i = 0; i < shown; ++i) out += render(diagnostics[i]) + "\n";
   if (shown < diagnostics.size()) out += fmt::format("... and {} more\n\n", diagnostics.size() - shown);
   const auto errors = std::count_if(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) { return d.severity == Severity::error; });
-  return out + fmt::format("{} error{}. Nothing was run.", errors, errors == 1 ? "" : "s");
+  return out + fmt::format("{} error{}. Nothing was run.\n", errors, errors == 1 ? "" : "s");
 }
 
 /// Restricted Damerau-Levenshtein distance.

@@ -36,7 +36,7 @@ struct Diagnostic {
 /// The printable text of one diagnostic, with a final newline.
 std::string render(const Diagnostic&);
 
-/// Everything found wrong with the input, in one exception. what() is the complete text, ready for stderr.
+/// Everything found wrong with the input, in one exception. what() is the complete text with its final newline.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Diagnostic> diagnostics);

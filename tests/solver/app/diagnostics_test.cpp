@@ -39,8 +39,8 @@ TEST(Diagnostics, CloseWithTheNumberOfErrors) {
   Diagnostic warning = typo();
   warning.severity = Severity::warning;
   const InputError one({typo(), warning}), two({typo(), typo()});
-  EXPECT_TRUE(std::string(one.what()).ends_with("\n1 error. Nothing was run.")) << one.what();
-  EXPECT_TRUE(std::string(two.what()).ends_with("\n2 errors. Nothing was run.")) << two.what();
+  EXPECT_TRUE(std::string(one.what()).ends_with("\n1 error. Nothing was run.\n")) << one.what();
+  EXPECT_TRUE(std::string(two.what()).ends_with("\n2 errors. Nothing was run.\n")) << two.what();
   EXPECT_NE(std::string(one.what()).find("\nwarning: unknown key"), std::string::npos);
   EXPECT_EQ(two.diagnostics().size(), 2u);
 }
@@ -48,10 +48,12 @@ TEST(Diagnostics, CloseWithTheNumberOfErrors) {
 TEST(Diagnostics, ShowAtMostFifty) {
   const InputError many(std::vector<Diagnostic>(60, typo()));
   EXPECT_NE(std::string(many.what()).find("... and 10 more"), std::string::npos);
-  EXPECT_TRUE(std::string(many.what()).ends_with("60 errors. Nothing was run."));
+  EXPECT_TRUE(std::string(many.what()).ends_with("60 errors. Nothing was run.\n"));
 }
 
-TEST(Diagnostics, NeedNoPlace) { EXPECT_STREQ(InputError("no scene file given").what(), "error: no scene file given\n\n1 error. Nothing was run."); }
+TEST(Diagnostics, NeedNoPlace) {
+  EXPECT_STREQ(InputError("no scene file given").what(), "error: no scene file given\n\n1 error. Nothing was run.\n");
+}
 
 TEST(DidYouMean, FindsSlipsOfTheFinger) {
   const std::vector<std::string> keys{"length", "elements", "type", "mass", "EA", "EI"};

@@ -24,7 +24,7 @@ TEST_P(ReaderFault, IsReportedOnceWithItsPlace) {
   const std::string text = errors(with(sound_scene, fault.from, fault.to));
   EXPECT_NE(text.find("scene.toml" + std::string(fault.place) + "\n"), std::string::npos) << text;
   for (const char* says : fault.says) EXPECT_NE(text.find(says), std::string::npos) << says << "\n" << text;
-  EXPECT_TRUE(text.ends_with("\n\n1 error. Nothing was run.")) << text;
+  EXPECT_TRUE(text.ends_with("\n\n1 error. Nothing was run.\n")) << text;
 }
 
 const Fault typing[] = {

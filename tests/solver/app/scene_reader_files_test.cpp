@@ -26,7 +26,7 @@ TEST_F(ReaderFiles, ThatCannotBeReadAreNamed) {
   EXPECT_NE(refusal(path("nothing.toml")).find("the scene file does not exist\n --> " + path("nothing.toml")), std::string::npos);
   EXPECT_NE(refusal(folder_.string()).find("the scene file is a directory"), std::string::npos);
   EXPECT_NE(refusal("/dev/zero").find("the scene file is not a regular file"), std::string::npos);
-  EXPECT_NE(refusal(path(std::string(5000, 'x'))).find("1 error. Nothing was run."), std::string::npos);
+  EXPECT_NE(refusal(path(std::string(5000, 'x'))).find("1 error. Nothing was run.\n"), std::string::npos);
   EXPECT_NE(refusal("").find("the scene file does not exist"), std::string::npos);
 }
 
@@ -139,7 +139,7 @@ TEST_F(ReaderFiles, OfMotionsAreCheckedRowByRow) {
     const std::string report = errors(scene);
     EXPECT_NE(report.find(c.place), std::string::npos) << c.says << "\n" << report;
     EXPECT_NE(report.find(c.says), std::string::npos) << report;
-    EXPECT_TRUE(report.ends_with("\n1 error. Nothing was run.")) << report;
+    EXPECT_TRUE(report.ends_with("\n1 error. Nothing was run.\n")) << report;
   }
 }
 
@@ -215,7 +215,7 @@ TEST_F(ReaderOverrides, AreNamedInTheirErrors) {
     const std::string report = errors(sound_scene, {c.argument});
     EXPECT_NE(report.find(std::string(" --> --set ") + c.argument), std::string::npos) << report;
     EXPECT_NE(report.find(c.says), std::string::npos) << report;
-    EXPECT_TRUE(report.ends_with("\n1 error. Nothing was run.")) << report;
+    EXPECT_TRUE(report.ends_with("\n1 error. Nothing was run.\n")) << report;
   }
 }
 
