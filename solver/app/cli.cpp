@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <filesystem>
 #include <thread>
 
 #include "solver/app/command_check.hpp"
@@ -51,23 +52,32 @@ void add_common(CLI::App& command, Request& request) {
 }
 
 void add_static(CLI::App& command, Request& request) {
-  auto* start = command
-                    .add_option_function<std::string>(
-                        "--start", [&request](const std::string& name) { request.start = name == "straight" ? StaticStart::straight : StaticStart::catenary; },
-                        "first guess: catenary (default) or straight")
-                    ->check(CLI::IsMember({"catenary", "straight"}).description(""))
-                    ->type_name("NAME");
+  auto* start =
+      command
+          .add_option_function<std::string>(
+              "--start", [&request](const std::string& name) { request.start = name == "straight" ? StaticStart::straight : StaticStart::catenary; },
+              "first guess: catenary (default) or straight")
+          ->check(CLI::IsMember({"catenary", "straight"}).description(""))
+          ->type_name("NAME");
   command.add_option("--from", request.from, "first guess: the last state of a result on the same mesh")->type_name("FILE")->excludes(start);
-  command.add_option("--stations", request.stations, "even stations in the JSON document (default: the nodes)")->check(CLI::Range(2, 10'000'000))->type_name("N");
+  command.add_option("--stations", request.stations, "even stations in the JSON document (default: the nodes)")
+      ->check(CLI::Range(2, 10'000'000))
+      ->type_name("N");
   command.add_option("--out", request.out, "folder for static.json, result.h5 and pictures")->type_name("DIR");
   command
-      .add_option_function<std::string>("--method", [](const std::string& method) {
-        if (method == "kinsol") refuse_unbuilt("--method kinsol");
-        if (method != "newton") throw InputError(fmt::format("--method {}: allowed are newton and kinsol", method));
-      }, "newton (default) or kinsol (not built yet)")
+      .add_option_function<std::string>(
+          "--method",
+          [](const std::string& method) {
+            if (method == "kinsol") refuse_unbuilt("--method kinsol");
+            if (method != "newton") throw InputError(fmt::format("--method {}: allowed are newton and kinsol", method));
+          },
+          "newton (default) or kinsol (not built yet)")
       ->type_name("NAME");
   for (const char* option : {"--probe", "--vary"}) {
-    command.add_option_function<std::string>(option, [option](const std::string&) { refuse_unbuilt(option); }, "not built yet")->type_name("...");
+    command
+        .add_option_function<std::string>(
+            option, [option](const std::string&) { refuse_unbuilt(option); }, "not built yet")
+        ->type_name("...");
   }
 }
 
@@ -106,6 +116,7 @@ int dispatch(int argc, const char* const* argv) {
 
 Scene read_request(const Request& request, std::vector<Diagnostic>* warnings) {
   Scene scene = read_scene(request.scene, request.overrides, warnings);
+  if (scene.title.empty()) scene.title = std::filesystem::path(scene.path).stem().string();
   if (request.threads) scene.solve.threads = *request.threads;
   if (scene.solve.threads == 0) scene.solve.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   return scene;

@@ -19,14 +19,14 @@ struct Request {
   std::string scene;                   // path
   std::vector<std::string> overrides;  // "key=value"
   bool json = false, quiet = false;
-  std::optional<int> threads;          // absent: as the scene says; 0: all
-  std::string out;                     // folder; empty: the command's default
+  std::optional<int> threads;  // absent: as the scene says; 0: all
+  std::string out;             // folder; empty: the command's default
   StaticStart start = StaticStart::catenary;
-  std::string from;                    // result file to start a static from
-  int stations = 0;                    // even stations; 0: the nodes
+  std::string from;  // result file to start a static from
+  int stations = 0;  // even stations; 0: the nodes
 };
 
-/// The scene with its overrides, and with the number of threads to use in solve.threads (never 0).
+/// The scene with its overrides, with the number of threads to use in solve.threads (never 0), and the name of the file where it has no title.
 /// Warnings go to stderr, or to `warnings` where given. Throws InputError.
 Scene read_request(const Request& request, std::vector<Diagnostic>* warnings = nullptr);
 

@@ -42,12 +42,18 @@ std::string describe(const Model& model, int point) {
 Json line_json(const Scene& scene, const Model& model, int index) {
   const Line& line = model.lines[static_cast<std::size_t>(index)];
   const LineSpec& spec = scene.lines[static_cast<std::size_t>(index)];
-  Json json = {{"from", model.points[static_cast<std::size_t>(line.from)].name}, {"to", model.points[static_cast<std::size_t>(line.to)].name},
-               {"length", line.length}, {"model", name_of(line.family)}, {"terms", terms_of(model, line)},
-               {"elements", line.elements}, {"joints", joints_of(model, index)}, {"loads", spec.loads.size()}, {"sections", Json::array()}};
+  Json json = {{"from", model.points[static_cast<std::size_t>(line.from)].name},
+               {"to", model.points[static_cast<std::size_t>(line.to)].name},
+               {"length", line.length},
+               {"model", name_of(line.family)},
+               {"terms", terms_of(model, line)},
+               {"elements", line.elements},
+               {"joints", joints_of(model, index)},
+               {"loads", spec.loads.size()},
+               {"sections", Json::array()}};
   for (const SectionSpec& section : spec.sections) {
-    json["sections"].push_back({{"type", section.type}, {"length", section.length}, {"elements", section.elements},
-                                {"element_size", section.length / section.elements}});
+    json["sections"].push_back(
+        {{"type", section.type}, {"length", section.length}, {"elements", section.elements}, {"element_size", section.length / section.elements}});
   }
   return json;
 }
@@ -55,12 +61,14 @@ Json line_json(const Scene& scene, const Model& model, int index) {
 Json check_document(const Scene& scene, const Model& model, const std::vector<std::string>& warnings) {
   const CostEstimate cost = estimate_cost(scene, model);
   Json json = {{"title", scene.title}, {"lines", Json::object()}};
-  for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) json["lines"][model.lines[static_cast<std::size_t>(i)].name] = line_json(scene, model, i);
+  for (int i = 0; i < static_cast<int>(model.lines.size()); ++i)
+    json["lines"][model.lines[static_cast<std::size_t>(i)].name] = line_json(scene, model, i);
   json["unknowns"] = model.unknowns;
   json["elements"] = model.total_elements();
   json["linear_solver"] = scene.solve.linear_solver;
   json["threads"] = scene.solve.threads;
-  json["estimates"] = {{"bytes", cost.bytes}, {"steps", cost.steps}, {"static_seconds", cost.static_seconds}, {"dynamic_seconds", cost.dynamic_seconds}};
+  json["estimates"] = {
+      {"bytes", cost.bytes}, {"steps", cost.steps}, {"static_seconds", cost.static_seconds}, {"dynamic_seconds", cost.dynamic_seconds}};
   json["warnings"] = warnings;
   return json;
 }
@@ -144,7 +152,8 @@ std::vector<std::string> odd_things(const Scene& scene, const Model& model) {
       odd.push_back(fmt::format("line {} is {:.4g} m shorter than the distance of its ends: it is stretched by {:.2g} %", line.name,
                                 chord(model, line) - line.length, 100.0 * (chord(model, line) / line.length - 1.0)));
     }
-    const bool stiff = std::any_of(spec.sections.begin(), spec.sections.end(), [&](const SectionSpec& s) { return type_named(scene, s.type).EI > 0.0; });
+    const bool stiff =
+        std::any_of(spec.sections.begin(), spec.sections.end(), [&](const SectionSpec& s) { return type_named(scene, s.type).EI > 0.0; });
     if (stiff && line.family != Family::beam) odd.push_back(fmt::format("line {}: EI is not used by model \"{}\"", line.name, name_of(line.family)));
   }
   if (!scene.dynamics) return odd;
@@ -152,7 +161,8 @@ std::vector<std::string> odd_things(const Scene& scene, const Model& model) {
     if (!point.motion) continue;
     for (const Harmonic& harmonic : point.motion->harmonics) {
       if (harmonic.period >= 20.0 * scene.dynamics->step) continue;
-      odd.push_back(fmt::format("point {}: a period of {:.4g} s has only {:.3g} steps", point.name, harmonic.period, harmonic.period / scene.dynamics->step));
+      odd.push_back(
+          fmt::format("point {}: a period of {:.4g} s has only {:.3g} steps", point.name, harmonic.period, harmonic.period / scene.dynamics->step));
     }
   }
   return odd;

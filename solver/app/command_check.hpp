@@ -13,9 +13,9 @@ namespace hawser {
 std::vector<std::string> terms_of(const Model& model, const Line& line);
 
 struct CostEstimate {
-  double bytes = 0.0;             // tangent, factors, states and element data
-  double static_seconds = 0.0;    // ten iterations, one thread
-  double dynamic_seconds = 0.0;   // steps x 3 iterations; 0 without dynamics
+  double bytes = 0.0;            // tangent, factors, states and element data
+  double static_seconds = 0.0;   // ten iterations, one thread
+  double dynamic_seconds = 0.0;  // steps x 3 iterations; 0 without dynamics
   long steps = 0;
 };
 

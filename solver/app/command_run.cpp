@@ -74,7 +74,8 @@ void integrate(const Request& request, const Scene& scene, const Assembler& asse
 void tell_outcome(const Request& request, const RunRecord& run, const fs::path& kept, const PlotReport& plots) {
   if (run.dynamics.interrupted) {
     const std::string saved = (kept / "result.h5").string();
-    fmt::print(stderr, "interrupted at t = {:.6g} s; the rows up to then, the fields and the last state are in {}\n", run.dynamics.reached, kept.string());
+    fmt::print(stderr, "interrupted at t = {:.6g} s; the rows up to then, the fields and the last state are in {}\n", run.dynamics.reached,
+               kept.string());
     fmt::print(stderr, "  to see what is there: h5dump -n {}\n", saved);
   } else if (!run.dynamics.finished) {
     say_failure(run.dynamics.failure);
@@ -106,7 +107,7 @@ int command_run(const Request& request) {
   if (run.equilibrium && !run.equilibrium->report.converged) return stop_without_start(request, scene, model, run, folder);
 
   const fs::path running = folder.begin();
-  PlotData plots{scene.title.empty() ? fs::path(scene.path).stem().string() : scene.title, model, {}, {}, true};
+  PlotData plots{scene.title, model, {}, {}, true};
   {
     Recorder recorder(scene, model, request.overrides, running);
     integrate(request, scene, assembler, recorder, state, run);

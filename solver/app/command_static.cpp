@@ -30,7 +30,7 @@ void write_result(const fs::path& folder, const Request& request, const Scene& s
 }
 
 void draw(const fs::path& folder, const Scene& scene, const Model& model, const State& state) {
-  PlotData data{scene.title.empty() ? fs::path(scene.path).stem().string() : scene.title, model, {shape_of(model, state)}, {}, false};
+  PlotData data{scene.title, model, {shape_of(model, state)}, {}, false};
   for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
     data.ranges.emplace_back().add(model.lines[static_cast<std::size_t>(line)], observe_line(model, state, line));
   }

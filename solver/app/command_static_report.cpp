@@ -22,7 +22,7 @@ std::vector<Station> stations_for(const Model& model, const State& state, int li
 }
 
 Json stations_json(const std::vector<Station>& stations) {
-  Json json = {{"s", Json::array()}, {"x", Json::array()}, {"y", Json::array()}, {"z", Json::array()},
+  Json json = {{"s", Json::array()},       {"x", Json::array()},         {"y", Json::array()},    {"z", Json::array()},
                {"tension", Json::array()}, {"curvature", Json::array()}, {"twist", Json::array()}};
   for (const Station& station : stations) {
     json["s"].push_back(station.s);
@@ -105,15 +105,15 @@ Json static_document(const Model& model, const StaticSolution& solution, int sta
 
 std::string static_text(const Scene& scene, const Model& model, const StaticSolution& solution) {
   const StaticReport& report = solution.report;
-  std::vector<std::vector<std::string>> lines{{"line", "model", "elements", "length", "tension from", "tension to", "least", "greatest", "mesh error"}};
+  std::vector<std::vector<std::string>> lines{
+      {"line", "model", "elements", "length", "tension from", "tension to", "least", "greatest", "mesh error"}};
   for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) {
     const Line& line = model.lines[static_cast<std::size_t>(i)];
     const LineResult r = observe_line(model, solution.state, i);
     const double error = solution.error_estimates[static_cast<std::size_t>(i)];
     lines.push_back({line.name, name_of(line.family), fmt::format("{}", line.elements), fmt::format("{:.6g} m", line.length),
                      force_text(r.tension_from, report), force_text(r.tension_to, report), force_text(r.tension_min, report),
-                     force_text(r.tension_max, report),
-                     std::isfinite(error) ? fmt::format("{:.1e}", error) : "?"});
+                     force_text(r.tension_max, report), std::isfinite(error) ? fmt::format("{:.1e}", error) : "?"});
   }
   std::vector<std::vector<std::string>> points{{"point", "x [m]", "y [m]", "z [m]", "force x", "force y", "force z"}};
   const std::vector<PointResult> results = observe_points(model, solution.state);

@@ -54,7 +54,8 @@ void write_shapes(const fs::path& folder, const PlotData& data) {
   std::vector<int> done;
   for (std::size_t i = 0; i < data.model.lines.size(); ++i) {
     const Line& line = data.model.lines[i];
-    const std::array<std::pair<int, Vec3>, 2> ends{{{line.from, data.shapes.front().lines[i].front()}, {line.to, data.shapes.front().lines[i].back()}}};
+    const std::array<std::pair<int, Vec3>, 2> ends{
+        {{line.from, data.shapes.front().lines[i].front()}, {line.to, data.shapes.front().lines[i].back()}}};
     for (const auto& [point, r] : ends) {
       if (std::find(done.begin(), done.end(), point) != done.end()) continue;
       done.push_back(point);
@@ -69,7 +70,7 @@ std::string shape_axes(const Box& box, int across, int up, double room) {
   const double width = box.extent(across), height = box.extent(up);
   const bool equal = width > 0.4 * room * height && width < 4.0 * room * height;
   // Room for the names of the points; a line without extent across still gets a frame.
-  const double margin_across = 0.12 * std::max(width, 0.05 * height), margin_up = 0.07 * std::max(height, 0.05 * width);
+  const double margin_across = 0.16 * std::max(width, 0.05 * height), margin_up = 0.07 * std::max(height, 0.05 * width);
   return fmt::format("set xlabel '{} [m]'\nset ylabel '{} [m]{}'\nset xrange [{}:{}]\nset yrange [{}:{}]\nset size {}\n", names[across], names[up],
                      equal ? "" : "  (not to the scale of the other axis)", box.low[across] - margin_across, box.high[across] + margin_across,
                      box.low[up] - margin_up, box.high[up] + margin_up, equal ? "ratio -1" : "noratio");
@@ -80,19 +81,22 @@ std::string shape_panel(const PlotData& data, const Box& box, int across, int up
   std::string text = shape_axes(box, across, up, room);
   const std::size_t lines = data.model.lines.size(), last = data.shapes.size() - 1;
   text += "plot ";
-  const auto add = [&](std::size_t shape, std::size_t line, const char* style, const std::string& title) {
-    text += fmt::format("'shapes.dat' index {} using {}:{} with lines {} {}, \\\n     ", shape * lines + line, across + 2, up + 2, style,
-                        title.empty() ? "notitle" : "title " + gnuplot_quoted(title));
+  const auto add = [&](std::size_t shape, const char* style) {
+    for (std::size_t line = 0; line < lines; ++line) {
+      text += fmt::format("'shapes.dat' index {} using {}:{} with lines {} notitle, \\\n     ", shape * lines + line, across + 2, up + 2, style);
+    }
   };
-  const auto label = [&](std::size_t shape) { return data.in_time ? fmt::format("t = {:.4g} s", data.shapes[shape].time) : std::string("equilibrium"); };
-  for (std::size_t shape = 1; shape < last; ++shape) {
-    const bool first = shape == 1;
-    for (std::size_t line = 0; line < lines; ++line) add(shape, line, "linewidth 1 linecolor rgb '#9db4cc'", first && line == 0 ? "between" : "");
-  }
-  if (last > 0) {
-    for (std::size_t line = 0; line < lines; ++line) add(last, line, "linewidth 2.5 linecolor rgb '#c8501e'", line == 0 ? label(last) : "");
-  }
-  for (std::size_t line = 0; line < lines; ++line) add(0, line, "linewidth 2.5 linecolor rgb '#1f3f66'", line == 0 ? label(0) : "");
+  const auto explain = [&](std::size_t shape, const char* style) {
+    text += fmt::format("keyentry with lines {} title 't = {:.4g} s', \\\n     ", style, data.shapes[shape].time);
+  };
+  constexpr const char *first_style = "linewidth 2.5 linecolor rgb '#1f3f66'", *last_style = "linewidth 2.5 linecolor rgb '#c8501e'";
+  constexpr const char* between_style = "linewidth 1 linecolor rgb '#9db4cc'";
+  for (std::size_t shape = 1; shape < last; ++shape) add(shape, between_style);
+  if (last > 0) add(last, last_style);
+  add(0, first_style);
+  explain(0, first_style);
+  if (last > 1) text += fmt::format("keyentry with lines {} title 'between', \\\n     ", between_style);
+  if (last > 0) explain(last, last_style);
   text += fmt::format("'points.dat' using {}:{} with points pointtype 7 pointsize 1.1 linecolor rgb '#222222' notitle, \\\n", across + 1, up + 1);
   text += fmt::format("     '' using {}:{}:4 with labels left offset 0.8,0.6 noenhanced notitle\n", across + 1, up + 1);
   return text;
@@ -102,7 +106,7 @@ std::string profile_script(const PlotData& data) {
   const Box box = box_of(data.shapes);
   const double small = 1e-3 * box.largest();
   std::string text = gnuplot_head("profile", data.title);
-  text += data.in_time ? "set key outside top center horizontal nobox noopaque\n" : "unset key\n";
+  if (!data.in_time) text += "unset key\n";
   constexpr double whole = 1.6, half = 0.75;  // width over height of the room for one panel and for two
   if (box.extent(1) <= small) return text + shape_panel(data, box, 0, 2, whole);
   if (box.extent(0) <= small) return text + shape_panel(data, box, 1, 2, whole);
@@ -125,19 +129,20 @@ void write_tensions(const fs::path& folder, const PlotData& data) {
 
 std::string tension_script(const PlotData& data) {
   std::string text = gnuplot_head("tension", data.title);
-  text += "set xlabel 'unstretched arc length from the first end [m]'\nset ylabel 'effective tension [kN]'\nset style fill solid 0.18 noborder\nplot ";
+  text += "set xlabel 'unstretched arc length from the first end [m]'\nset ylabel 'effective tension [kN]'\n";
+  text += "set style fill transparent solid 0.18 noborder\nplot ";
+  const auto add = [&](std::size_t line, const char* columns, const char* style, const std::string& title) {
+    text += fmt::format("'tension.dat' index {} using {} with {} linecolor rgb '{}' title {} noenhanced, \\\n     ", line, columns, style,
+                        colour_of(line), gnuplot_quoted(title));
+  };
+  for (std::size_t i = 0; data.in_time && i < data.ranges.size(); ++i) {
+    add(i, "1:($2/1e3):($4/1e3)", "filledcurves", data.model.lines[i].name + ", least to greatest");
+    add(i, "1:($4/1e3)", "lines linewidth 1", "");
+    add(i, "1:($2/1e3)", "lines linewidth 1", "");
+  }
   for (std::size_t i = 0; i < data.ranges.size(); ++i) {
     const std::string& name = data.model.lines[i].name;
-    const auto add = [&](const char* columns, const std::string& style, const std::string& title) {
-      text += fmt::format("'tension.dat' index {} using {} with {} linecolor rgb '{}' title {} noenhanced, \\\n     ", i, columns, style, colour_of(i),
-                          gnuplot_quoted(title));
-    };
-    if (data.in_time) {
-      add("1:($2/1e3):($4/1e3)", "filledcurves", name + ", least to greatest");
-      add("1:($4/1e3)", "lines linewidth 1", "");
-      add("1:($2/1e3)", "lines linewidth 1", "");
-    }
-    add("1:($3/1e3)", "lines linewidth 2.5", data.in_time ? name + ", mean in time" : name);
+    add(i, "1:($3/1e3)", "lines linewidth 2.5", data.in_time ? name + ", mean in time" : name);
   }
   return text.substr(0, text.rfind(',')) + '\n';
 }
@@ -148,10 +153,10 @@ std::string history_script(const PlotData& data) {
   for (std::size_t i = 0; i < data.model.lines.size(); ++i) {
     const Line& line = data.model.lines[i];
     const auto add = [&](const char* end, int point, const char* dash) {
-      std::string column;
-      for (const char c : fmt::format("{}.tension_{}", line.name, end)) column += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-      text += fmt::format("'../series.csv' using (column(\"time\")):(column(\"{}\")/1e3) with lines linewidth 2 {} linecolor rgb '{}' title {} noenhanced, \\\n     ",
-                          column, dash, colour_of(i), gnuplot_quoted(line.name + " at " + data.model.points[static_cast<std::size_t>(point)].name));
+      text += fmt::format(
+          "'../series.csv' using (column(\"time\")):(column(\"{}.tension_{}\")/1e3) with lines linewidth 2 {} linecolor rgb '{}' title {} "
+          "noenhanced, \\\n     ",
+          line.name, end, dash, colour_of(i), gnuplot_quoted(line.name + " at " + data.model.points[static_cast<std::size_t>(point)].name));
     };
     add("from", line.from, "dashtype 1");
     add("to", line.to, "dashtype '-'");

@@ -44,7 +44,7 @@ std::string gnuplot_head(const std::string& picture, const std::string& title) {
       "set grid linecolor rgb '#dddddd' linetype 1 linewidth 1\n"
       "set border linecolor rgb '#444444'\n"
       "set tics textcolor rgb '#222222' nomirror\n"
-      "set key top right opaque box linecolor rgb '#cccccc' spacing 1.2\n",
+      "set key outside bottom center horizontal reverse Left samplen 3 width 1 height 1.5\n",
       picture, gnuplot_quoted(title));
 }
 

@@ -33,7 +33,8 @@ void discard(const fs::path& folder) {
 OutputFolder::OutputFolder(fs::path directory) : directory_(std::move(directory)), running_(directory_ / "running") {
   const fs::path ancestor = existing_ancestor(directory_);
   if (!fs::is_directory(ancestor)) throw InputError(fmt::format("--out {}: {} is not a folder", directory_.string(), ancestor.string()));
-  if (access(ancestor.c_str(), W_OK | X_OK) != 0) throw InputError(fmt::format("--out {}: may not write to {}", directory_.string(), ancestor.string()));
+  if (access(ancestor.c_str(), W_OK | X_OK) != 0)
+    throw InputError(fmt::format("--out {}: may not write to {}", directory_.string(), ancestor.string()));
 }
 
 const fs::path& OutputFolder::begin() {

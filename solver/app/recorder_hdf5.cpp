@@ -167,7 +167,8 @@ State read_last_state(const std::filesystem::path& path, const Model& model) {
   try {
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open it as an HDF5 file");
     for (const Line& line : model.lines) {
-      if (hdf5::read_doubles(file, group_of(line) + "/s") != line.s) throw std::runtime_error(fmt::format("line {} has another mesh there", line.name));
+      if (hdf5::read_doubles(file, group_of(line) + "/s") != line.s)
+        throw std::runtime_error(fmt::format("line {} has another mesh there", line.name));
     }
     const Handle group(H5Gopen2(file, "/state", H5P_DEFAULT), H5Gclose, "find /state");
     state.q = hdf5::read_doubles(group, "q");

@@ -27,14 +27,6 @@ ClampedEnds clamped_ends(const Model& model, int line) {
   return ends;
 }
 
-/// A cell as CSV wants it: quoted where the name holds a comma, a quote or a line end.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 }  // namespace
 
 std::vector<std::vector<double>> stations_of(const Scene& scene, const Model& model) {
@@ -95,9 +87,7 @@ std::vector<std::string> series_header(const Scene& scene, const Model& model) {
 SeriesFile::SeriesFile(const std::filesystem::path& path, const Scene& scene, const Model& model)
     : model_(model), path_(path), file_(std::fopen(path.c_str(), "w"), &std::fclose) {
   if (!file_) throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
-  std::vector<std::string> header = series_header(scene, model);
-  std::transform(header.begin(), header.end(), header.begin(), cell);
-  write(fmt::format("{}\n", fmt::join(header, ",")));
+  write(fmt::format("{}\n", fmt::join(series_header(scene, model), ",")));
 }
 
 void SeriesFile::write(const std::string& text) {

@@ -14,10 +14,10 @@ namespace hawser {
 
 /// Everything a row holds, computed once.
 struct Observation {
-  double time = 0.0;                         // s
-  std::vector<LineResult> lines;             // as Model::lines
+  double time = 0.0;                           // s
+  std::vector<LineResult> lines;               // as Model::lines
   std::vector<std::vector<Station>> stations;  // as Model::lines, in the order asked for
-  std::vector<PointResult> points;           // as Model::points
+  std::vector<PointResult> points;             // as Model::points
 };
 
 /// Arc lengths per line of the model, in the order of the scene.

@@ -79,9 +79,10 @@ void describe_run(ResultFile& file, const Scene& scene, const RunRecord& run) {
 
 std::string run_text(const Scene& scene, const Model& model, const RunRecord& run, const std::vector<TensionRange>& ranges) {
   const SimulateCounters& counters = run.dynamics.counters;
-  std::string text = fmt::format("{}\n{:.6g} s simulated in {:.3g} s: {} steps ({} rejected), {:.2f} Newton iterations and {:.2f} factorizations a step ({})\n\n",
-                                 scene.title, run.dynamics.reached, run.total_seconds, counters.steps, counters.rejected_steps,
-                                 per_step(counters.newton_iterations, counters), per_step(counters.factorizations, counters), counters.linear_solver);
+  std::string text =
+      fmt::format("{}\n{:.6g} s simulated in {:.3g} s: {} steps ({} rejected), {:.2f} Newton iterations and {:.2f} factorizations a step ({})\n\n",
+                  scene.title, run.dynamics.reached, run.total_seconds, counters.steps, counters.rejected_steps,
+                  per_step(counters.newton_iterations, counters), per_step(counters.factorizations, counters), counters.linear_solver);
   std::vector<std::vector<std::string>> rows{{"line", "tension at", "least", "mean", "greatest"}};
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const TensionRange& range = ranges[i];

@@ -29,9 +29,10 @@ TEST_F(Cli, VersionNamesTheProgram) {
 
 TEST_F(Cli, BadUsageEndsWithCodeTwoAndSaysWhyOnStderr) {
   write("scene.toml", small_scene);
-  for (const char* arguments : {"", "nonsense", "static", "static scene.toml --nonsense", "static scene.toml --start sideways", "static scene.toml --stations 1",
-                                "static scene.toml --method magic", "run scene.toml --threads -1", "static missing.toml", "static scene.toml --from missing.h5",
-                                "run scene.toml --out scene.toml", "static scene.toml --set nonsense=1", "static scene.toml --from a --start straight"}) {
+  for (const char* arguments :
+       {"", "nonsense", "static", "static scene.toml --nonsense", "static scene.toml --start sideways", "static scene.toml --stations 1",
+        "static scene.toml --method magic", "run scene.toml --threads -1", "static missing.toml", "static scene.toml --from missing.h5",
+        "run scene.toml --out scene.toml", "static scene.toml --set nonsense=1", "static scene.toml --from a --start straight"}) {
     const Outcome outcome = hawser(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
@@ -131,7 +132,8 @@ TEST_F(Cli, NoEquilibriumEndsWithCodeThreeAndLeavesNothingWhereResultsGo) {
 
 TEST_F(Cli, AStoppedIntegrationEndsWithCodeFourAndKeepsItsRowsApart) {
   // A thrust that overflows soon after 0.2 s.
-  write("scene.toml", with(small_scene, "mass = 100.0", "mass = 100.0\nthrust = { table = [[0.2, 0.0, 0.0, 0.0], [0.3, 1e300, 0.0, 0.0]], interpolation = \"linear\" }"));
+  write("scene.toml", with(small_scene, "mass = 100.0",
+                           "mass = 100.0\nthrust = { table = [[0.2, 0.0, 0.0, 0.0], [0.3, 1e300, 0.0, 0.0]], interpolation = \"linear\" }"));
   const Outcome outcome = hawser("run scene.toml --out results --json");
   EXPECT_EQ(outcome.code, 4);
   EXPECT_EQ(outcome.json().at("status"), "failed");
@@ -146,7 +148,8 @@ TEST_F(Cli, CheckPrintsWhatWasUnderstood) {
   write("scene.toml", small_scene);
   const Outcome text = hawser("check scene.toml");
   ASSERT_EQ(text.code, 0) << text.err;
-  for (const char* part : {"line a: 100 m, 10 elements, cable (axial, weight, inertia, drag)", "66 unknowns", "20 steps", "from top (moved 0, 0, 0)"}) {
+  for (const char* part :
+       {"line a: 100 m, 10 elements, cable (axial, weight, inertia, drag)", "66 unknowns", "20 steps", "from top (moved 0, 0, 0)"}) {
     EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
   }
   const nlohmann::json document = hawser("check scene.toml --json").json();

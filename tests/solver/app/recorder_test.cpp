@@ -49,10 +49,29 @@ TEST_F(RecordedRun, SeriesHasTheColumnsOfTheContractAndARowAnOutputInstant) {
   write("scene.toml", small_scene);
   ASSERT_EQ(hawser("run scene.toml --out results").code, 0);
   const Series series = read_series(folder_ / "results/series.csv");
-  const std::vector<std::string> header{
-      "time", "a.tension_from", "a.tension_to", "a.tension_max", "a.tension_min", "a.curvature_max", "a.curvature_max_s",
-      "a.x@50.0", "a.y@50.0", "a.z@50.0", "a.tension@50.0", "a.curvature@50.0", "a.x@93.1", "a.y@93.1", "a.z@93.1", "a.tension@93.1", "a.curvature@93.1",
-      "top.x", "top.y", "top.z", "end.x", "end.y", "end.z"};
+  const std::vector<std::string> header{"time",
+                                        "a.tension_from",
+                                        "a.tension_to",
+                                        "a.tension_max",
+                                        "a.tension_min",
+                                        "a.curvature_max",
+                                        "a.curvature_max_s",
+                                        "a.x@50.0",
+                                        "a.y@50.0",
+                                        "a.z@50.0",
+                                        "a.tension@50.0",
+                                        "a.curvature@50.0",
+                                        "a.x@93.1",
+                                        "a.y@93.1",
+                                        "a.z@93.1",
+                                        "a.tension@93.1",
+                                        "a.curvature@93.1",
+                                        "top.x",
+                                        "top.y",
+                                        "top.z",
+                                        "end.x",
+                                        "end.y",
+                                        "end.z"};
   EXPECT_EQ(series.header, header);
   ASSERT_EQ(series.rows.size(), 11U);
   for (std::size_t row = 0; row < series.rows.size(); ++row) {
@@ -66,7 +85,8 @@ TEST_F(RecordedRun, SeriesHasTheColumnsOfTheContractAndARowAnOutputInstant) {
 }
 
 TEST_F(RecordedRun, ClampedEndsAddTheirMoment) {
-  const std::string clamped = with(with(small_scene, "EA = 4.0e7", "EA = 4.0e7\nEI = 1000.0"), "to = \"end\"", "to = \"end\"\nfrom_end = { clamped = [1, 0, -1] }");
+  const std::string clamped =
+      with(with(small_scene, "EA = 4.0e7", "EA = 4.0e7\nEI = 1000.0"), "to = \"end\"", "to = \"end\"\nfrom_end = { clamped = [1, 0, -1] }");
   write("scene.toml", clamped);
   ASSERT_EQ(hawser("run scene.toml --out results").code, 0);
   const Series series = read_series(folder_ / "results/series.csv");
