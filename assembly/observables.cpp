@@ -17,7 +17,7 @@ Vec3 to_vec(const V3<double>& x) { return {x[0], x[1], x[2]}; }
 /// A nodal quantity inside one element, at xi in [0, 1].
 class Interpolation {
  public:
-  Interpolation(Family family, double length, const Nodal<double>& n) : bar_(family == Family::bar), length_(length) {
+  Interpolation(Family family, double length, const Nodal<double>& n) : bar_(family == Family::bar), power_{1.0 / (length * length), 1.0 / length, 1.0, length} {
     y_[0] = to_vec(n.r0) + to_vec(n.r1);
     y_[1] = to_vec(n.r1) - to_vec(n.r0);
     y_[2] = to_vec(n.s0) + to_vec(n.s1);
@@ -29,18 +29,18 @@ class Interpolation {
   Vec3 second(double xi) const { return sum(Channel::b, xi); }
 
  private:
-  Vec3 sum(Channel channel, double xi) const {
-    return bar_ ? sum_of(Coefficients<StraightShape, double>(xi - 0.5, length_, 1.0 / length_)[channel], 2)
-                : sum_of(Coefficients<HermiteShape, double>(xi - 0.5, length_, 1.0 / length_)[channel], 4);
-  }
-  Vec3 sum_of(const double* c, int modes) const {
-    Vec3 x = c[0] * y_[0];
-    for (int j = 1; j < modes; ++j) x += c[j] * y_[j];
+  Vec3 sum(Channel channel, double xi) const { return bar_ ? sum_of<StraightShape>(channel, xi - 0.5) : sum_of<HermiteShape>(channel, xi - 0.5); }
+
+  template <class Shape>
+  Vec3 sum_of(Channel channel, double eta) const {
+    Vec3 x = Vec3::Zero();
+    for (int j = channel == Channel::r ? 0 : 1; j < Shape::modes; ++j)
+      x += Shape::coefficient(channel, j, eta) * power_[length_power(channel, j) + 2] * y_[j];
     return x;
   }
 
   bool bar_;
-  double length_;
+  double power_[4];  // l^-2 .. l
   Vec3 y_[4];
 };
 
