@@ -16,6 +16,7 @@
 
 namespace hawser {
 
+inline constexpr int gauss_points = 3;
 inline constexpr double gauss_eta = 0.38729833462074169;      // sqrt(0.15)
 inline constexpr double gauss_outer_weight = 5.0 / 18.0, gauss_middle_weight = 8.0 / 18.0;
 inline constexpr double gauss_xi[3] = {0.5 - gauss_eta, 0.5, 0.5 + gauss_eta};

@@ -94,45 +94,45 @@ HAWSER_INLINE V3<S> mode_sum(const Coefficients<Shape, S>& c, const V3<S>* y) {
   return x;
 }
 
-/// Sum and difference of two responses: [0] serves even products of coefficients, [1] odd ones.
+/// What the terms answer at the Gauss points, weighted: outer pair as a sum (for even products of coefficients) and a difference
+/// (for odd ones), and the middle.
 template <class S>
-struct PairOf {
-  Response<S> part[2];
+struct Responses {
+  Response<S> sum, middle, difference;
 };
 
-template <class Family, Want want, class S>
-HAWSER_INLINE void sum_and_difference(const Response<S>& plus, const Response<S>& minus, const S& weight, PairOf<S>& out) {
-  const auto split = [&](auto member) __attribute__((always_inline)) {
-    constexpr int count = sizeof(plus.*member) / sizeof(S);
-    const S *p = reinterpret_cast<const S*>(&(plus.*member)), *m = reinterpret_cast<const S*>(&(minus.*member));
-    S *sum = reinterpret_cast<S*>(&(out.part[0].*member)), *difference = reinterpret_cast<S*>(&(out.part[1].*member));
-#pragma GCC unroll 1
-    for (int c = 0; c < count; ++c) {
-      sum[c] = weight * (p[c] + m[c]);
-      difference[c] = weight * (p[c] - m[c]);
-    }
-  };
-  if constexpr (Family::wet) split(&Response<S>::Fr);
-  if constexpr (Family::bends) {
-    split(&Response<S>::Fa);
-    split(&Response<S>::Fb);
-  }
-  if constexpr (want == Want::tangent && Family::wet) {
-    split(&Response<S>::Jrr);
-    split(&Response<S>::Jra);
-  }
-  if constexpr (want == Want::tangent && Family::bends) {
-    split(&Response<S>::Jaa);
-    split(&Response<S>::Jab);
-    split(&Response<S>::Jbb);
+/// Calls f with every member of Response that a family fills.
+template <class Family, Want want, class S, class F>
+HAWSER_INLINE void for_members(F&& f) {
+  if constexpr (Family::wet) f(&Response<S>::Fr);
+  f(&Response<S>::Fa);
+  if constexpr (Family::bends) f(&Response<S>::Fb);
+  if constexpr (want == Want::tangent) {
+    f(&Response<S>::Jaa);
+    if constexpr (Family::wet) f(&Response<S>::Jrr);
+    if constexpr (Family::wet) f(&Response<S>::Jra);
+    if constexpr (Family::bends) f(&Response<S>::Jab);
+    if constexpr (Family::bends) f(&Response<S>::Jbb);
   }
 }
 
-template <class Shape, class S>
-struct Accumulated {
-  V3<S> g[Shape::modes];
-  M3<S> G[Shape::modes][Shape::modes];
-};
+/// From the responses at +eta (in `sum`) and -eta (in `difference`) to their weighted sum and difference; the middle is weighted.
+template <class Family, Want want, class S>
+HAWSER_INLINE void weigh(Responses<S>& at, const S& outer_weight, const S& middle_weight) {
+  for_members<Family, want, S>([&](auto member) __attribute__((always_inline)) {
+    constexpr int count = sizeof(at.sum.*member) / sizeof(S);
+    S* plus = reinterpret_cast<S*>(&(at.sum.*member));
+    S* minus = reinterpret_cast<S*>(&(at.difference.*member));
+    S* middle = reinterpret_cast<S*>(&(at.middle.*member));
+#pragma GCC unroll 1
+    for (int c = 0; c < count; ++c) {
+      const S p = plus[c], m = minus[c];
+      plus[c] = outer_weight * (p + m);
+      minus[c] = outer_weight * (p - m);
+      middle[c] = middle_weight * middle[c];
+    }
+  });
+}
 
 inline constexpr int transposed_index[9] = {0, 3, 6, 1, 4, 7, 2, 5, 8};
 
@@ -146,11 +146,11 @@ HAWSER_INLINE void static_for(F&& f) {
 /// ones the difference. The loop over the nine components stays a loop: unrolled blocks outgrow the instruction cache.
 template <class Family, int i, int j, class S>
 HAWSER_INLINE void mode_block(const Coefficients<typename Family::Shape, S>& outer, const Coefficients<typename Family::Shape, S>& centre,
-                              const PairOf<S>& pair, const Response<S>& middle, M3<S>& G) {
+                              const Responses<S>& at, M3<S>& G) {
   using Shape = typename Family::Shape;
   constexpr bool Ri = Shape::even(i), Rj = Shape::even(j);  // A has the other parity, B the same
   constexpr bool slopes = i > 0 && j > 0, wet = Family::wet, bends = Family::bends && slopes;
-  const Response<S>&same = pair.part[Ri == Rj ? 0 : 1], &other = pair.part[Ri == Rj ? 1 : 0];
+  const Response<S>&same = Ri == Rj ? at.sum : at.difference, &other = Ri == Rj ? at.difference : at.sum, &middle = at.middle;
   const auto f = [&](const Coefficients<Shape, S>& c, Channel row, Channel column) __attribute__((always_inline)) { return c[row][i] * c[column][j]; };
   const S o_rr = f(outer, Channel::r, Channel::r), o_ra = f(outer, Channel::r, Channel::a), o_aa = f(outer, Channel::a, Channel::a), o_ab = f(outer, Channel::a, Channel::b);
   const S o_ba = f(outer, Channel::b, Channel::a), o_bb = f(outer, Channel::b, Channel::b);
@@ -175,14 +175,16 @@ HAWSER_INLINE void mode_block(const Coefficients<typename Family::Shape, S>& out
 
 template <class Family, int j, class S>
 HAWSER_INLINE void mode_force(const Coefficients<typename Family::Shape, S>& outer, const Coefficients<typename Family::Shape, S>& centre,
-                              const PairOf<S>& pair, const Response<S>& middle, V3<S>& g) {
+                              const Responses<S>& at, V3<S>& g) {
   constexpr bool even = Family::Shape::even(j);
-  if constexpr (Family::wet) add_scaled(g, outer[Channel::r][j], pair.part[even ? 0 : 1].Fr);
+  const Response<S>&same = even ? at.sum : at.difference, &other = even ? at.difference : at.sum, &middle = at.middle;
+  g = zero_vector<S>();
+  if constexpr (Family::wet) add_scaled(g, outer[Channel::r][j], same.Fr);
   if constexpr (Family::wet && even) add_scaled(g, centre[Channel::r][j], middle.Fr);
   if constexpr (j > 0 && !even) add_scaled(g, centre[Channel::a][j], middle.Fa);
   if constexpr (Family::bends && j > 0) {
-    add_scaled(g, outer[Channel::a][j], pair.part[even ? 1 : 0].Fa);
-    add_scaled(g, outer[Channel::b][j], pair.part[even ? 0 : 1].Fb);
+    add_scaled(g, outer[Channel::a][j], other.Fa);
+    add_scaled(g, outer[Channel::b][j], same.Fb);
     if constexpr (even) add_scaled(g, centre[Channel::b][j], middle.Fb);
   }
 }
@@ -193,21 +195,19 @@ struct ModeState {
   V3<S> q[Shape::modes], v[Shape::modes], a[Shape::modes];
 };
 
-/// The point at sign * eta of the coefficients (sign +1 or -1); in the middle odd parts vanish.
-template <class Family, bool middle, class S>
+/// The point at sign * eta of the coefficients; sign 0 for the middle, whose odd coefficients are zero.
+template <class Family, class S>
 HAWSER_INLINE Point<S> make_point(const ModeState<typename Family::Shape, S>& y, const Coefficients<typename Family::Shape, S>& c, double sign,
                                   const CurrentTable& current) {
   using Shape = typename Family::Shape;
   const auto at = [&]<Channel channel>(const V3<S>* modes) __attribute__((always_inline)) {
     V3<S> x = mode_sum<Shape, channel, true>(c, modes);
-    if constexpr (!middle) add_scaled(x, S(sign), mode_sum<Shape, channel, false>(c, modes));
+    add_scaled(x, S(sign), mode_sum<Shape, channel, false>(c, modes));
     return x;
   };
   Point<S> p;
   p.a = at.template operator()<Channel::a>(y.q);
   set_tangent(p);
-  p.velocity_a = zero_vector<S>();
-  if constexpr (middle) p.velocity_a = at.template operator()<Channel::a>(y.v);
   if constexpr (Family::bends) p.b = at.template operator()<Channel::b>(y.q);
   if constexpr (Family::wet) {
     current_at(current, at.template operator()<Channel::r>(y.q)[2], p.current, p.current_gradient);
@@ -223,59 +223,23 @@ HAWSER_INLINE void clear(Response<S>& at) {
   if constexpr (want == Want::tangent) at.Jrr = at.Jra = at.Jaa = at.Jab = at.Jbb = zero_matrix<S>();
 }
 
-/// The middle point: the axial term with its own weight, the others with the Gauss weight, both already multiplied by l.
+/// Adds the axial term of the middle to a response that is already weighted: the Lobatto rule gives it 2/3 of the length (bar: all).
 template <class Family, Want want, class S>
-HAWSER_INLINE void middle_response(const Point<S>& p, const Properties<S>& e, const Weights& w, Response<S>& at) {
-  clear<want>(at);
-  Axial::add<want>(p, e, w, at);
-  // The axial rule weighs the middle by 2/3 (bar: 1), the Gauss rule by 4/9.
-  const S ratio(Family::Shape::middle_weight / gauss_middle_weight);
-  at.Fa = ratio * at.Fa;
+HAWSER_INLINE void add_middle_axial(const ModeState<typename Family::Shape, S>& y, const Coefficients<typename Family::Shape, S>& centre,
+                                    const Properties<S>& e, const Weights& w, Response<S>& middle) {
+  using Shape = typename Family::Shape;
+  Point<S> p;
+  p.a = mode_sum<Shape, Channel::a, true>(centre, y.q);
+  p.velocity_a = mode_sum<Shape, Channel::a, true>(centre, y.v);
+  set_tangent(p);
+  Response<S> axial;
+  axial.Fa = zero_vector<S>();
+  if constexpr (want == Want::tangent) axial.Jaa = zero_matrix<S>();
+  Axial::add<want>(p, e, w, axial);
+  const S share = S(Shape::middle_weight) * e.length;
+  add_scaled(middle.Fa, share, axial.Fa);
   if constexpr (want == Want::tangent)
-    for (int c = 0; c < 9; ++c) at.Jaa.m[c] = ratio * at.Jaa.m[c];
-  Family::template add_terms<want>(p, e, w, at);
-  const S weight = S(gauss_middle_weight) * e.length;
-  const auto scale = [&](auto& member) __attribute__((always_inline)) {
-    S* x = reinterpret_cast<S*>(&member);
-    for (unsigned c = 0; c < sizeof(member) / sizeof(S); ++c) x[c] = weight * x[c];
-  };
-  scale(at.Fa);
-  if constexpr (Family::wet) scale(at.Fr);
-  if constexpr (Family::bends) scale(at.Fb);
-  if constexpr (want == Want::tangent) {
-    scale(at.Jaa);
-    if constexpr (Family::wet) {
-      scale(at.Jrr);
-      scale(at.Jra);
-    }
-    if constexpr (Family::bends) {
-      scale(at.Jab);
-      scale(at.Jbb);
-    }
-  }
-}
-
-/// From modes to node vectors: r0 = y0 - y1, r1 = y0 + y1, r0' = y2 - y3, r1' = y2 + y3 of rows and columns.
-template <class Shape, Want want, class S>
-HAWSER_INLINE void nodal(const Accumulated<Shape, S>& sum, ElementResult<Shape, S>& out) {
-  constexpr int n = Shape::node_vectors;
-  for (int k = 0; k < n; ++k) {
-    out.f[k] = sum.g[2 * k] - sum.g[2 * k + 1];
-    out.f[n + k] = sum.g[2 * k] + sum.g[2 * k + 1];
-  }
-  if constexpr (want == Want::tangent)
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
-#pragma GCC unroll 1
-        for (int c = 0; c < 9; ++c) {
-          const S ee = sum.G[2 * i][2 * j].m[c], eo = sum.G[2 * i][2 * j + 1].m[c];
-          const S oe = sum.G[2 * i + 1][2 * j].m[c], oo = sum.G[2 * i + 1][2 * j + 1].m[c];
-          const S even = ee + oo, odd = eo + oe, even_difference = ee - oo, odd_difference = eo - oe;
-          out.K[i][j].m[c] = even - odd;
-          out.K[n + i][n + j].m[c] = even + odd;
-          out.K[i][n + j].m[c] = even_difference + odd_difference;
-          out.K[n + i][j].m[c] = even_difference - odd_difference;
-        }
+    for (int c = 0; c < 9; ++c) middle.Jaa.m[c] = middle.Jaa.m[c] + share * axial.Jaa.m[c];
 }
 
 }  // namespace hawser

@@ -86,23 +86,20 @@ constexpr int block_row(int i, int j, int c) {
 }
 
 /// The nodal values D, U, L of W nodes, lanes = nodes; D gathers both elements of a node and its axial term.
-template <class Shape, int W>
-HAWSER_INLINE void fill_rows(const ElementResult<Shape, Pack<W>>& r, const NodalAxial& axial, int e, Running<3 * Shape::node_vectors, W>& before,
-                             Pack<W>* rows) {
-  constexpr int n = Shape::node_vectors, B = 3 * n;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-#pragma GCC unroll 1
-      for (int c = 0; c < 9; ++c) {
-        const int row = block_row<B>(i, j, c);
-        const Pack<W> right = r.K[n + i][n + j].m[c];
-        Pack<W> diagonal = r.K[i][j].m[c] + shifted(before.K[row], right);
-        if (i == 1 && j == 1) diagonal = diagonal + Pack<W>::load(&axial.K[c][e]);
-        before.K[row] = right;
-        rows[row] = diagonal;
-        rows[B * B + row] = r.K[i][n + j].m[c];
-        rows[2 * B * B + row] = r.K[n + i][j].m[c];
-      }
+template <class Family, int W>
+HAWSER_INLINE void fill_rows(const Integrand<Family, Pack<W>>& in, const Properties<Pack<W>>& e, const Weights& w, const NodalAxial& axial, int first,
+                             Running<3 * Family::Shape::node_vectors, W>& before, Pack<W>* rows) {
+  using S = Pack<W>;
+  constexpr int B = 3 * Family::Shape::node_vectors;
+  nodal_tangent(in, e, w, [&](int i, int j, int c, const S& k00, const S& k01, const S& k10, const S& k11) __attribute__((always_inline)) {
+    const int row = block_row<B>(i, j, c);
+    S diagonal = k00 + shifted(before.K[row], k11);
+    if (i == 1 && j == 1) diagonal = diagonal + S::load(&axial.K[c][first]);
+    before.K[row] = k11;
+    rows[row] = diagonal;
+    rows[B * B + row] = k01;
+    rows[2 * B * B + row] = k10;
+  });
 }
 
 /// Writes `count` rows held lane by lane as `lanes` contiguous runs of `count` doubles.
@@ -123,14 +120,14 @@ HAWSER_INLINE void store_transposed(const Pack<W>* rows, double* to, int lanes) 
 }
 
 template <class Shape, int W>
-HAWSER_INLINE void write_residual(const ElementResult<Shape, Pack<W>>& r, const NodalAxial& axial, int e, int lanes,
+HAWSER_INLINE void write_residual(const V3<Pack<W>>* f, const NodalAxial& axial, int e, int lanes,
                                   Running<3 * Shape::node_vectors, W>& before, double* to) {
   constexpr int n = Shape::node_vectors, B = 3 * n;
   Pack<W> rows[B];
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < 3; ++c) {
-      const Pack<W> right = r.f[n + i][c];
-      rows[3 * i + c] = r.f[i][c] + shifted(before.f[3 * i + c], right);
+      const Pack<W> right = f[n + i][c];
+      rows[3 * i + c] = f[i][c] + shifted(before.f[3 * i + c], right);
       if (i == 1) rows[3 * i + c] = rows[3 * i + c] + Pack<W>::load(&axial.f[c][e]);
       before.f[3 * i + c] = right;
     }
@@ -168,12 +165,15 @@ void sweep_panel(const SweepLine& line, int panel) {
   for (int e = 0; e < count; e += W) {
     lanes = count - e < W ? count - e : W;
     const ElementState<S> x{state.template nodal<W>(0, e), state.template nodal<W>(1, e), state.template nodal<W>(2, e)};
-    ElementResult<Shape, S> result;
-    interior<Family, want>(x, load_properties<W>(line, first + e), line.weights, line.current, result);
-    write_residual(result, axial, e, lanes, before, line.r + static_cast<long>(B) * (first + e));
+    const Properties<S> properties = load_properties<W>(line, first + e);
+    Integrand<Family, S> in(properties.length, S(1.0) / properties.length);
+    integrate<Family, want>(x, properties, line.weights, line.current, in);
+    V3<S> f[2 * Shape::node_vectors];
+    nodal_force(in, x, properties, f);
+    write_residual<Shape>(f, axial, e, lanes, before, line.r + static_cast<long>(B) * (first + e));
     if constexpr (want == Want::tangent) {
-      Pack<W> rows[3 * B * B];
-      fill_rows(result, axial, e, before, rows);
+      S rows[3 * B * B];
+      fill_rows(in, properties, line.weights, axial, e, before, rows);
       store_transposed<3 * B * B, W>(rows, line.blocks + 3L * B * B * (first + e), lanes);
     }
   }
