@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <limits>
@@ -50,6 +51,11 @@ State given_start(const Model& model, const std::string& path) {
   return state;
 }
 
+/// The user gave a first guess for some line (`start` of a line); lines without one start as ever.
+bool has_shape(const Scene& scene) {
+  return std::any_of(scene.lines.begin(), scene.lines.end(), [](const LineSpec& line) { return line.start.has_value(); });
+}
+
 }  // namespace
 
 StaticSolution solve_requested_static(const Request& request, const Scene& scene, const Assembler& assembler) {
@@ -65,6 +71,9 @@ StaticSolution solve_requested_static(const Request& request, const Scene& scene
   solution.state = model.make_state();
   if (!request.from.empty()) {
     solution.state = given_start(model, request.from);
+    options.start = StaticStart::given;
+  } else if (request.start == StaticStart::catenary && has_shape(scene)) {
+    solution.state = static_start(model, StaticStart::catenary, scene);
     options.start = StaticStart::given;
   }
   const Clock::time_point start = Clock::now();

@@ -117,6 +117,17 @@ TEST_F(Cli, StraightStartAndStoredStartReachTheSameEquilibrium) {
   EXPECT_EQ(hawser("static scene.toml --from first/result.h5 --set lines.a.sections.0.elements=12").code, 2);
 }
 
+TEST_F(Cli, AShapeGivenForALineIsTheFirstGuessOfItsStatic) {
+  const std::string scene = with(small_scene, "to = \"end\"", "to = \"end\"\nstart = { file = \"shape.csv\" }");
+  write("scene.toml", small_scene);
+  const double tension = hawser("static scene.toml --json").json().at("lines").at("a").at("tension_from");
+  write("shape.csv", "s,x,y,z\n0,0,0,0\n40,25,5,-30\n100,40,10,-85\n");
+  write("shaped.toml", scene);
+  const Outcome shaped = hawser("static shaped.toml --json");
+  EXPECT_NEAR(shaped.json().at("lines").at("a").at("tension_from").get<double>(), tension, 1e-9 * tension);
+  EXPECT_GT(shaped.json().at("iterations"), hawser("static scene.toml --json").json().at("iterations"));  // a worse guess than the catenary
+}
+
 TEST_F(Cli, NoEquilibriumEndsWithCodeThreeAndLeavesNothingWhereResultsGo) {
   write("scene.toml", slack_scene);
   const Outcome outcome = hawser("static scene.toml --json --out results");
