@@ -22,8 +22,7 @@ struct AddedMass {
       add_outer(out.Jrr, S(w.m) * difference, p.t, p.t);
       const S f = S(w.k) * p.inverse_lambda * difference;
       add_identity(out.Jra, f * along);
-      add_outer(out.Jra, -f * along, p.t, p.t);
-      add_outer(out.Jra, f, p.t, normal);
+      add_outer(out.Jra, f, p.t, normal - along * p.t);
     }
   }
 };

@@ -21,9 +21,8 @@ struct Axial {
       const S geometric = S(w.k) * (maximum(tension, e.least_tension) + e.axial_damping * rate) * p.inverse_lambda;
       const S material = S(w.k) * e.EA + S(w.c) * e.axial_damping;
       add_identity(out.Jaa, geometric);
-      add_outer(out.Jaa, material - geometric, p.t, p.t);
       const V3<S> normal_rate = p.velocity_a - rate * p.t;
-      add_outer(out.Jaa, S(w.k) * e.axial_damping * p.inverse_lambda, p.t, normal_rate);
+      add_outer(out.Jaa, S(1.0), p.t, (material - geometric) * p.t + S(w.k) * e.axial_damping * p.inverse_lambda * normal_rate);
     }
   }
 };

@@ -38,16 +38,13 @@ struct Bending {
   HAWSER_INLINE static void add_exact(const V3<S>& a, const V3<S>& b, const V3<S>& p, const V3<S>& Wa, const S& i, const S& beta, const S& W,
                                       const S& k, Response<S>& out) {
     const S ki = k * i;
-    add_outer(out.Jab, S(-2.0) * ki, a, p);
-    add_outer(out.Jab, -ki, p, a);
+    // Every dyad starts with a or p: the second vectors are summed first.
     add_identity(out.Jab, -k * beta);
-    add_outer(out.Jab, ki * beta, a, a);
+    add_outer(out.Jab, ki, a, beta * a - S(2.0) * p);
+    add_outer(out.Jab, -ki, p, a);
     add_identity(out.Jaa, k * (beta * beta - W));
-    add_outer(out.Jaa, S(-2.0) * ki, a, Wa);
-    add_outer(out.Jaa, ki * (S(2.0) * W - S(2.0) * beta * beta), a, a);
-    add_outer(out.Jaa, -ki, p, b);
-    add_outer(out.Jaa, S(4.0) * ki * beta, p, a);
-    add_outer(out.Jaa, ki * beta, a, b);
+    add_outer(out.Jaa, ki, a, beta * b + S(2.0) * ((W - beta * beta) * a - Wa));
+    add_outer(out.Jaa, ki, p, S(4.0) * beta * a - b);
   }
 
   // k_a^T k_a and k_a^T k_b with c = a x b expanded: |c|^2 = alpha^2 W, [b]^T[b] = b.b I - b b^T, [b]^T c = -b x c, c x a = alpha p.

@@ -38,9 +38,8 @@ struct Drag {
       const S f = S(w.k) * p.inverse_lambda;
       const S isotropic = f * sigma * (normal_force - tangential_force);
       add_identity(out.Jra, isotropic);
-      add_outer(out.Jra, -isotropic, p.t, p.t);
+      add_outer(out.Jra, S(1.0), p.t, f * (normal_force - S(2.0) * tangential_force) * normal - isotropic * p.t);
       add_outer(out.Jra, f * sigma * ring, normal, normal);
-      add_outer(out.Jra, f * (normal_force - S(2.0) * tangential_force), p.t, normal);
     }
   }
 };
