@@ -14,7 +14,7 @@
 namespace hawser {
 
 struct Chain {
-  int block = 6;                // unknowns a node: 3 (bar) or 6 (cable, beam)
+  int block = 6;  // unknowns a node: 3 (bar) or 6 (cable, beam)
   int nodes = 0;
   std::size_t first_dof = 0;    // of node 0 in a vector of unknowns
   std::size_t first_value = 0;  // of D[0] in values()

@@ -42,8 +42,7 @@ BodyForce body_force(const Model& model, const State& state, const Body& body, c
   out.on_r = mass * a + Vec3(0.0, 0.0, body.wet_weight) - body.force(state.t);
   out.d_r = w.mass * mass * Mat3::Identity();
   if (body.drag > 0.0) add_drag(model, body, r, v, w, out);
-  if (body.moment.any() && model.chain(body.line).block == 6)
-    add_moment(body.moment(state.t), Eigen::Map<const Vec3>(&state.q[d + 3]), w, out);
+  if (body.moment.any() && model.chain(body.line).block == 6) add_moment(body.moment(state.t), Eigen::Map<const Vec3>(&state.q[d + 3]), w, out);
   return out;
 }
 

@@ -12,16 +12,23 @@ V3<double> scaled_slope(const Joint& joint, const State& state, std::size_t slop
   const V3<double> s = load3(state.q, slope), v = load3(state.v, slope), a = load3(state.a, slope);
   const double mu = state.q[joint.inner], mu_dot = state.v[joint.inner], mu_ddot = state.a[joint.inner];
   switch (derivative) {
-    case 0: return mu * s;
-    case 1: return mu_dot * s + mu * v;
-    default: return mu_ddot * s + (2.0 * mu_dot) * v + mu * a;
+    case 0:
+      return mu * s;
+    case 1:
+      return mu_dot * s + mu * v;
+    default:
+      return mu_ddot * s + (2.0 * mu_dot) * v + mu * a;
   }
 }
 
 Properties<double> element_properties(const Model& model, int e, double least_tension) {
   const ElementArrays& p = model.element;
-  return {p.length[e],      p.EA[e],           p.EI[e],           p.axial_damping[e],    p.mass[e], p.weight[e], p.drag_normal[e],
-          p.drag_tangential[e], p.added_normal[e], p.added_tangential[e], least_tension};
+  return {p.length[e],       p.EA[e],
+          p.EI[e],           p.axial_damping[e],
+          p.mass[e],         p.weight[e],
+          p.drag_normal[e],  p.drag_tangential[e],
+          p.added_normal[e], p.added_tangential[e],
+          least_tension};
 }
 
 template <class Family, Want want>
@@ -42,12 +49,15 @@ void evaluate(const ElementState<double>& x, const Properties<double>& e, const 
 }
 
 template <Want want>
-void evaluate_family(Family family, bool wet, const ElementState<double>& x, const Properties<double>& e, const Weights& w, const CurrentTable& current,
-                     Element& out) {
+void evaluate_family(Family family, bool wet, const ElementState<double>& x, const Properties<double>& e, const Weights& w,
+                     const CurrentTable& current, Element& out) {
   switch (family) {
-    case Family::bar: return wet ? evaluate<BarWet, want>(x, e, w, current, out) : evaluate<BarDry, want>(x, e, w, current, out);
-    case Family::cable: return wet ? evaluate<CableWet, want>(x, e, w, current, out) : evaluate<CableDry, want>(x, e, w, current, out);
-    case Family::beam: return wet ? evaluate<BeamWet, want>(x, e, w, current, out) : evaluate<BeamDry, want>(x, e, w, current, out);
+    case Family::bar:
+      return wet ? evaluate<BarWet, want>(x, e, w, current, out) : evaluate<BarDry, want>(x, e, w, current, out);
+    case Family::cable:
+      return wet ? evaluate<CableWet, want>(x, e, w, current, out) : evaluate<CableDry, want>(x, e, w, current, out);
+    case Family::beam:
+      return wet ? evaluate<BeamWet, want>(x, e, w, current, out) : evaluate<BeamDry, want>(x, e, w, current, out);
   }
 }
 

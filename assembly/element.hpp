@@ -28,8 +28,8 @@ const Joint* joint_of(const Model& model, int element);
 ElementState<double> element_state(const Model& model, const State& state, int line, int element);
 
 /// Force and tangent of the whole element, its spread loads at state.t included.
-Element evaluate_element(const Model& model, const State& state, int line, int element, const TangentWeights& weights, double least_tension = no_floor,
-                         bool gauss_newton = false);
+Element evaluate_element(const Model& model, const State& state, int line, int element, const TangentWeights& weights,
+                         double least_tension = no_floor, bool gauss_newton = false);
 
 /// The force alone (K is left empty).
 Vector12 element_force(const Model& model, const State& state, int line, int element);

@@ -17,7 +17,7 @@
 namespace hawser {
 
 inline constexpr int gauss_points = 3;
-inline constexpr double gauss_eta = 0.38729833462074169;      // sqrt(0.15)
+inline constexpr double gauss_eta = 0.38729833462074169;  // sqrt(0.15)
 inline constexpr double gauss_outer_weight = 5.0 / 18.0, gauss_middle_weight = 8.0 / 18.0;
 inline constexpr double gauss_xi[3] = {0.5 - gauss_eta, 0.5, 0.5 + gauss_eta};
 inline constexpr double gauss_weight[3] = {gauss_outer_weight, gauss_middle_weight, gauss_outer_weight};
@@ -34,9 +34,12 @@ struct HermiteShape {
   static constexpr bool even(int j) { return j == 0 || j == 3; }  // R_j; B_j has the same parity, A_j the other one
   static constexpr double coefficient(Channel channel, int j, double x) {
     switch (channel) {
-      case Channel::r: return j == 0 ? 0.5 : j == 1 ? x * (1.5 - 2 * x * x) : j == 2 ? x * (x * x - 0.25) : 0.5 * x * x - 0.125;
-      case Channel::a: return j == 0 ? 0.0 : j == 1 ? 1.5 - 6 * x * x : j == 2 ? 3 * x * x - 0.25 : x;
-      default: return j == 0 ? 0.0 : j == 1 ? -12 * x : j == 2 ? 6 * x : 1.0;
+      case Channel::r:
+        return j == 0 ? 0.5 : j == 1 ? x * (1.5 - 2 * x * x) : j == 2 ? x * (x * x - 0.25) : 0.5 * x * x - 0.125;
+      case Channel::a:
+        return j == 0 ? 0.0 : j == 1 ? 1.5 - 6 * x * x : j == 2 ? 3 * x * x - 0.25 : x;
+      default:
+        return j == 0 ? 0.0 : j == 1 ? -12 * x : j == 2 ? 6 * x : 1.0;
     }
   }
 };
@@ -51,9 +54,12 @@ struct StraightShape {
   static constexpr bool even(int j) { return j == 0; }
   static constexpr double coefficient(Channel channel, int j, double x) {
     switch (channel) {
-      case Channel::r: return j == 0 ? 0.5 : x;
-      case Channel::a: return j == 0 ? 0.0 : 1.0;
-      default: return 0.0;
+      case Channel::r:
+        return j == 0 ? 0.5 : x;
+      case Channel::a:
+        return j == 0 ? 0.0 : 1.0;
+      default:
+        return 0.0;
     }
   }
 };

@@ -8,8 +8,8 @@ namespace hawser {
 
 namespace {
 
-using Columns = Eigen::Matrix<double, 12, 4>;     // derivative of the 12 element rows with (r', mu)
-using Slopes = Eigen::Matrix<double, 3, 4>;       // derivative of b, b_dot or b_ddot with (r', mu)
+using Columns = Eigen::Matrix<double, 12, 4>;  // derivative of the 12 element rows with (r', mu)
+using Slopes = Eigen::Matrix<double, 3, 4>;    // derivative of b, b_dot or b_ddot with (r', mu)
 
 Vec3 part(const std::vector<double>& x, std::size_t i) { return {x[i], x[i + 1], x[i + 2]}; }
 

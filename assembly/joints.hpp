@@ -14,7 +14,7 @@ namespace hawser {
 struct JointElement {
   Vector12 rx;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> rc;
-  Matrix12 Kxx;     // condensed: Kxx - Kxc Kcc^-1 Kcx
+  Matrix12 Kxx;  // condensed: Kxx - Kxc Kcc^-1 Kcx
   Elimination elimination;
 };
 

@@ -114,8 +114,8 @@ HAWSER_INLINE void nodal_tangent(const Integrand<Family, S>& in, const Propertie
         const S one(identity_components[c]);
         const S even = ee.m[c] + oo.m[c], odd = eo.m[c] + oe.m[c];
         const S even_difference = ee.m[c] - oo.m[c], odd_difference = eo.m[c] - oe.m[c];
-        sink(i, j, c, even - odd + m[0][0] * one, even_difference + odd_difference + m[0][1] * one,
-             even_difference - odd_difference + m[1][0] * one, even + odd + m[1][1] * one);
+        sink(i, j, c, even - odd + m[0][0] * one, even_difference + odd_difference + m[0][1] * one, even_difference - odd_difference + m[1][0] * one,
+             even + odd + m[1][1] * one);
       }
     });
   });
@@ -148,12 +148,13 @@ HAWSER_INLINE void whole_element(const ElementState<S>& x, const Properties<S>& 
   integrate<Family, want>(x, e, w, current, in);
   nodal_force(in, x, e, out.f);
   if constexpr (want == Want::tangent)
-    nodal_tangent(in, e, w, [&](int i, int j, int c, const S& k00, const S& k01, const S& k10, const S& k11) __attribute__((always_inline)) {
-      out.K[i][j].m[c] = k00;
-      out.K[i][n + j].m[c] = k01;
-      out.K[n + i][j].m[c] = k10;
-      out.K[n + i][n + j].m[c] = k11;
-    });
+    nodal_tangent(
+        in, e, w, [&](int i, int j, int c, const S& k00, const S& k01, const S& k10, const S& k11) __attribute__((always_inline)) {
+          out.K[i][j].m[c] = k00;
+          out.K[i][n + j].m[c] = k01;
+          out.K[n + i][j].m[c] = k10;
+          out.K[n + i][n + j].m[c] = k11;
+        });
   if constexpr (Shape::node_vectors == 2) {
     const S share = S(Shape::end_weight) * e.length;
     V3<S> f;

@@ -16,10 +16,14 @@ const LineType& find_type(const std::string& name, std::span<const LineType> typ
 
 Family family_of(const LineSpec& line, std::span<const LineType> types) {
   switch (line.model) {
-    case ModelChoice::bar: return Family::bar;
-    case ModelChoice::cable: return Family::cable;
-    case ModelChoice::beam: return Family::beam;
-    case ModelChoice::automatic: break;
+    case ModelChoice::bar:
+      return Family::bar;
+    case ModelChoice::cable:
+      return Family::cable;
+    case ModelChoice::beam:
+      return Family::beam;
+    case ModelChoice::automatic:
+      break;
   }
   const bool bends = std::any_of(line.sections.begin(), line.sections.end(), [&](const SectionSpec& s) { return find_type(s.type, types).EI > 0.0; });
   return bends ? Family::beam : Family::cable;

@@ -19,9 +19,9 @@ struct MeshJoint {
 
 struct LineMesh {
   Family family;
-  std::vector<double> s;               // arc length of each node [m]
-  std::vector<const LineType*> type;   // of each element
-  std::vector<MeshJoint> joints;       // where the slope jumps
+  std::vector<double> s;              // arc length of each node [m]
+  std::vector<const LineType*> type;  // of each element
+  std::vector<MeshJoint> joints;      // where the slope jumps
 };
 
 LineMesh mesh_line(const LineSpec& line, std::span<const LineType> types);

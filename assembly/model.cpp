@@ -11,9 +11,12 @@ namespace hawser {
 
 const char* name_of(Family family) {
   switch (family) {
-    case Family::bar: return "bar";
-    case Family::cable: return "cable";
-    case Family::beam: return "beam";
+    case Family::bar:
+      return "bar";
+    case Family::cable:
+      return "cable";
+    case Family::beam:
+      return "beam";
   }
   return "?";
 }
@@ -152,8 +155,9 @@ class ModelBuilder {
     e.added_normal.push_back(rho * area * type.added_mass_normal);
     e.added_tangential.push_back(rho * area * type.added_mass_tangential);
     e.minimum_tension.push_back(1.0e-6 * (std::abs(weight) + drag_normal * fastest * fastest) * length);
-    model_.wet = model_.wet || (rho > 0.0 && (type.drag_normal > 0.0 || type.drag_tangential > 0.0 || type.added_mass_normal > 0.0 ||
-                                              type.added_mass_tangential > 0.0));
+    model_.wet =
+        model_.wet ||
+        (rho > 0.0 && (type.drag_normal > 0.0 || type.drag_tangential > 0.0 || type.added_mass_normal > 0.0 || type.added_mass_tangential > 0.0));
   }
 
   void add_end(const EndSpec& end, int point, int line, int node) {
@@ -167,8 +171,8 @@ class ModelBuilder {
 
   void add_body(const BodySpec& body, const TimeForce& moment, int line, int node) {
     const double weight = body.wet_weight.value_or((body.mass - model_.water_density * body.volume.value_or(0.0)) * model_.gravity);
-    model_.bodies.push_back({line, node, body.mass, body.added_mass, weight, 0.5 * model_.water_density * body.drag_area,
-                             TimeFunction(body.force), TimeFunction(moment)});
+    model_.bodies.push_back({line, node, body.mass, body.added_mass, weight, 0.5 * model_.water_density * body.drag_area, TimeFunction(body.force),
+                             TimeFunction(moment)});
   }
 
   void add_loads(const LineSpec& spec, const LineMesh& mesh, int line, int first_element) {

@@ -68,20 +68,20 @@ struct Line {
   Family family;
   int first_node, nodes;
   int first_element, elements;
-  int from, to;           // points
-  double length;          // m, unstretched
+  int from, to;   // points
+  double length;  // m, unstretched
   bool from_free, to_free;
   std::vector<double> s;  // arc length of each node
 };
 
 /// Properties per element, structure of arrays. Weight is positive down.
 struct ElementArrays {
-  std::vector<double> length;                        // m
-  std::vector<double> EA, EI, axial_damping;         // N, N m2, N s
-  std::vector<double> mass, weight;                  // kg/m, N/m
-  std::vector<double> drag_normal, drag_tangential;  // 1/2 rho Cdn d and 1/2 rho Cdt pi d [kg/m2]
+  std::vector<double> length;                          // m
+  std::vector<double> EA, EI, axial_damping;           // N, N m2, N s
+  std::vector<double> mass, weight;                    // kg/m, N/m
+  std::vector<double> drag_normal, drag_tangential;    // 1/2 rho Cdn d and 1/2 rho Cdt pi d [kg/m2]
   std::vector<double> added_normal, added_tangential;  // kg/m
-  std::vector<double> minimum_tension;               // N: 1e-6 (|w| + |drag|) l, theory 7.2
+  std::vector<double> minimum_tension;                 // N: 1e-6 (|w| + |drag|) l, theory 7.2
 };
 
 /// Steady current, components linear in z between rows (ascending z), constant beyond.
@@ -104,7 +104,7 @@ struct Model {
   std::vector<double> node_length;  // m: the shorter adjacent element, for norms (theory 6.1)
   Current current;
   double gravity = 9.80665, water_density = 1025.0;
-  bool wet = false;      // some element has drag or added mass
+  bool wet = false;         // some element has drag or added mass
   Vec3 tow = Vec3::Zero();  // common velocity of a steady tow
 
   std::size_t dofs = 0;      // chain unknowns

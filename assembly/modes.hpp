@@ -151,10 +151,14 @@ HAWSER_INLINE void mode_block(const Coefficients<typename Family::Shape, S>& out
   constexpr bool Ri = Shape::even(i), Rj = Shape::even(j);  // A has the other parity, B the same
   constexpr bool slopes = i > 0 && j > 0, wet = Family::wet, bends = Family::bends && slopes;
   const Response<S>&same = Ri == Rj ? at.sum : at.difference, &other = Ri == Rj ? at.difference : at.sum, &middle = at.middle;
-  const auto f = [&](const Coefficients<Shape, S>& c, Channel row, Channel column) __attribute__((always_inline)) { return c[row][i] * c[column][j]; };
-  const S o_rr = f(outer, Channel::r, Channel::r), o_ra = f(outer, Channel::r, Channel::a), o_aa = f(outer, Channel::a, Channel::a), o_ab = f(outer, Channel::a, Channel::b);
+  const auto f = [&](const Coefficients<Shape, S>& c, Channel row, Channel column) __attribute__((always_inline)) {
+    return c[row][i] * c[column][j];
+  };
+  const S o_rr = f(outer, Channel::r, Channel::r), o_ra = f(outer, Channel::r, Channel::a), o_aa = f(outer, Channel::a, Channel::a),
+          o_ab = f(outer, Channel::a, Channel::b);
   const S o_ba = f(outer, Channel::b, Channel::a), o_bb = f(outer, Channel::b, Channel::b);
-  const S m_rr = f(centre, Channel::r, Channel::r), m_ra = f(centre, Channel::r, Channel::a), m_aa = f(centre, Channel::a, Channel::a), m_ab = f(centre, Channel::a, Channel::b);
+  const S m_rr = f(centre, Channel::r, Channel::r), m_ra = f(centre, Channel::r, Channel::a), m_aa = f(centre, Channel::a, Channel::a),
+          m_ab = f(centre, Channel::a, Channel::b);
   const S m_ba = f(centre, Channel::b, Channel::a), m_bb = f(centre, Channel::b, Channel::b);
 #pragma GCC unroll 1
   for (int c = 0; c < 9; ++c) {

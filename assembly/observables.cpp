@@ -1,7 +1,6 @@
 #include "assembly/observables.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +16,8 @@ Vec3 to_vec(const V3<double>& x) { return {x[0], x[1], x[2]}; }
 /// A nodal quantity inside one element, at xi in [0, 1].
 class Interpolation {
  public:
-  Interpolation(Family family, double length, const Nodal<double>& n) : bar_(family == Family::bar), power_{1.0 / (length * length), 1.0 / length, 1.0, length} {
+  Interpolation(Family family, double length, const Nodal<double>& n)
+      : bar_(family == Family::bar), power_{1.0 / (length * length), 1.0 / length, 1.0, length} {
     y_[0] = to_vec(n.r0) + to_vec(n.r1);
     y_[1] = to_vec(n.r1) - to_vec(n.r0);
     y_[2] = to_vec(n.s0) + to_vec(n.s1);
@@ -63,7 +63,7 @@ double material_curvature(const ElementView& e, double xi) {
 
 /// Tension vector [N] in the line at the two ends of an element: what the part beyond pulls with.
 struct EndForces {
-  Vec3 left, right;        // T t
+  Vec3 left, right;              // T t
   Vec3 slope_left, slope_right;  // generalized forces conjugate to r' [N m]
 };
 
@@ -248,8 +248,7 @@ void add_element_energies(const Model& model, const State& state, int line, int 
 Energies observe_energies(const Model& model, const State& state) {
   Energies sum;
   for (std::size_t i = 0; i < model.lines.size(); ++i)
-    for (int k = 0; k < model.lines[i].elements; ++k)
-      add_element_energies(model, state, static_cast<int>(i), model.lines[i].first_element + k, sum);
+    for (int k = 0; k < model.lines[i].elements; ++k) add_element_energies(model, state, static_cast<int>(i), model.lines[i].first_element + k, sum);
   for (const Body& b : model.bodies) {
     const std::size_t d = model.dof(b.line, b.node);
     const Eigen::Map<const Vec3> r(&state.q[d]), v(&state.v[d]);

@@ -29,7 +29,7 @@ struct LineResult {
   std::vector<double> curvature;                              // 1/m per node, larger of the two sides
   double tension_max = 0.0, tension_min = 0.0;
   double curvature_max = 0.0, curvature_max_s = 0.0;
-  double compressed_length = 0.0;                             // m: elements whose strain tension is negative at some Lobatto point
+  double compressed_length = 0.0;                                   // m: elements whose strain tension is negative at some Lobatto point
   double least_strain_tension = 0.0, least_strain_tension_s = 0.0;  // N, m: EA(|r'|-1), for stability checks
 };
 
@@ -51,8 +51,8 @@ std::vector<PointResult> observe_points(const Model& model, const State& state);
 
 struct Energies {
   double kinetic = 0.0, axial = 0.0, bending = 0.0, potential = 0.0;  // J; potential of the wet weight, zero at z = 0
-  Vec3 momentum = Vec3::Zero();          // kg m/s
-  Vec3 angular_momentum = Vec3::Zero();  // kg m2/s about the origin
+  Vec3 momentum = Vec3::Zero();                                       // kg m/s
+  Vec3 angular_momentum = Vec3::Zero();                               // kg m2/s about the origin
   double total() const { return kinetic + axial + bending + potential; }
 };
 

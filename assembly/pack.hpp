@@ -17,12 +17,12 @@ namespace hawser {
 
 template <int W>
 struct VectorOf;
-#define HAWSER_VECTOR(W)                                                                    \
-  template <>                                                                               \
-  struct VectorOf<W> {                                                                      \
-    typedef double Type __attribute__((vector_size(8 * W)));                                \
-    typedef double InMemory __attribute__((vector_size(8 * W), aligned(8), may_alias));     \
-    typedef long long MaskType __attribute__((vector_size(8 * W)));                         \
+#define HAWSER_VECTOR(W)                                                                \
+  template <>                                                                           \
+  struct VectorOf<W> {                                                                  \
+    typedef double Type __attribute__((vector_size(8 * W)));                            \
+    typedef double InMemory __attribute__((vector_size(8 * W), aligned(8), may_alias)); \
+    typedef long long MaskType __attribute__((vector_size(8 * W)));                     \
   };
 HAWSER_VECTOR(2)
 HAWSER_VECTOR(4)

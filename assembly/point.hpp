@@ -13,12 +13,12 @@ namespace hawser {
 
 template <class S>
 struct Point {
-  V3<S> a, b;                        // r', r''
-  V3<S> velocity, velocity_a;        // r_dot, r'_dot
-  V3<S> acceleration;                // r_ddot
-  V3<S> current, current_gradient;   // u(z), du/dz
-  S lambda, inverse_lambda, alpha;   // |a|, 1/|a|, a.a
-  V3<S> t;                           // a/|a|
+  V3<S> a, b;                       // r', r''
+  V3<S> velocity, velocity_a;       // r_dot, r'_dot
+  V3<S> acceleration;               // r_ddot
+  V3<S> current, current_gradient;  // u(z), du/dz
+  S lambda, inverse_lambda, alpha;  // |a|, 1/|a|, a.a
+  V3<S> t;                          // a/|a|
 };
 
 template <class S>
@@ -30,12 +30,12 @@ struct Response {
 /// Properties of an element, per unstretched length; the same numbers at all its points.
 template <class S>
 struct Properties {
-  S length;                        // m
-  S EA, EI, axial_damping;         // N, N m2, N s
-  S mass, weight;                  // kg/m, N/m (down)
-  S drag_normal, drag_tangential;  // kg/m2: 1/2 rho Cdn d, 1/2 rho Cdt pi d
+  S length;                          // m
+  S EA, EI, axial_damping;           // N, N m2, N s
+  S mass, weight;                    // kg/m, N/m (down)
+  S drag_normal, drag_tangential;    // kg/m2: 1/2 rho Cdn d, 1/2 rho Cdt pi d
   S added_normal, added_tangential;  // kg/m
-  S least_tension;                 // N: floor of the geometric stiffness (theory 7.2); very negative: none
+  S least_tension;                   // N: floor of the geometric stiffness (theory 7.2); very negative: none
 };
 
 /// The weights of the tangent as the kernels read them.

@@ -60,12 +60,12 @@ struct MotionSpec {
 
 /// What a concentrated body adds to its node: a free point, or a clump or float on a line.
 struct BodySpec {
-  double mass = 0.0;                  // kg
-  std::optional<double> wet_weight;   // N, positive down
-  std::optional<double> volume;       // m3, used where wet_weight is absent
-  double drag_area = 0.0;             // Cd*A, m2
-  double added_mass = 0.0;            // kg, isotropic
-  TimeForce force;                    // N: thrust of a point, force of a load
+  double mass = 0.0;                 // kg
+  std::optional<double> wet_weight;  // N, positive down
+  std::optional<double> volume;      // m3, used where wet_weight is absent
+  double drag_area = 0.0;            // Cd*A, m2
+  double added_mass = 0.0;           // kg, isotropic
+  TimeForce force;                   // N: thrust of a point, force of a load
 };
 
 struct PointSpec {
@@ -80,10 +80,10 @@ struct PointSpec {
 struct LineType {
   std::string name;
   Place place;
-  double diameter = 0.0;  // m
-  double mass = 0.0;      // kg/m in air
-  double EA = 0.0;        // N
-  double EI = 0.0;        // N m2
+  double diameter = 0.0;                                        // m
+  double mass = 0.0;                                            // kg/m in air
+  double EA = 0.0;                                              // N
+  double EI = 0.0;                                              // N m2
   double drag_normal = 0.0, drag_tangential = 0.0;              // reference areas d*l and pi*d*l
   double added_mass_normal = 0.0, added_mass_tangential = 0.0;  // times the displaced water mass
   double axial_damping = 0.0;                                   // N s

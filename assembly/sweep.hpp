@@ -11,21 +11,21 @@
 namespace hawser {
 
 inline constexpr int panel_elements = 64;
-inline constexpr int table_padding = 16;                // doubles that may be read beyond the end of every table
-inline constexpr int carry_size = 6 + 36;               // residual and block of one node
-inline constexpr int property_count = 11;               // of Properties, in the order of its members
-inline constexpr int node_property_count = 3;           // axial terms at nodes: sum of share*EA, share*damping, share*least tension
+inline constexpr int table_padding = 16;       // doubles that may be read beyond the end of every table
+inline constexpr int carry_size = 6 + 36;      // residual and block of one node
+inline constexpr int property_count = 11;      // of Properties, in the order of its members
+inline constexpr int node_property_count = 3;  // axial terms at nodes: sum of share*EA, share*damping, share*least tension
 
 struct SweepLine {
   int elements;
-  const double *q, *v, *a;                              // the line's unknowns
-  const double* property[property_count];               // per element of the line
-  const double* node_property[node_property_count];     // per node of the line
+  const double *q, *v, *a;                           // the line's unknowns
+  const double* property[property_count];            // per element of the line
+  const double* node_property[node_property_count];  // per node of the line
   Weights weights;
   CurrentTable current;
-  double* r;                                            // the line's residual
-  double* blocks;                                       // the line's D, U, L; null: residual alone
-  double* carry;                                        // carry_size doubles a panel
+  double* r;       // the line's residual
+  double* blocks;  // the line's D, U, L; null: residual alone
+  double* carry;   // carry_size doubles a panel
 };
 
 using SweepFunction = void (*)(const SweepLine&, int panel);

@@ -91,15 +91,16 @@ HAWSER_INLINE void fill_rows(const Integrand<Family, Pack<W>>& in, const Propert
                              Running<3 * Family::Shape::node_vectors, W>& before, Pack<W>* rows) {
   using S = Pack<W>;
   constexpr int B = 3 * Family::Shape::node_vectors;
-  nodal_tangent(in, e, w, [&](int i, int j, int c, const S& k00, const S& k01, const S& k10, const S& k11) __attribute__((always_inline)) {
-    const int row = block_row<B>(i, j, c);
-    S diagonal = k00 + shifted(before.K[row], k11);
-    if (i == 1 && j == 1) diagonal = diagonal + S::load(&axial.K[c][first]);
-    before.K[row] = k11;
-    rows[row] = diagonal;
-    rows[B * B + row] = k01;
-    rows[2 * B * B + row] = k10;
-  });
+  nodal_tangent(
+      in, e, w, [&](int i, int j, int c, const S& k00, const S& k01, const S& k10, const S& k11) __attribute__((always_inline)) {
+        const int row = block_row<B>(i, j, c);
+        S diagonal = k00 + shifted(before.K[row], k11);
+        if (i == 1 && j == 1) diagonal = diagonal + S::load(&axial.K[c][first]);
+        before.K[row] = k11;
+        rows[row] = diagonal;
+        rows[B * B + row] = k01;
+        rows[2 * B * B + row] = k10;
+      });
 }
 
 /// Writes `count` rows held lane by lane as `lanes` contiguous runs of `count` doubles.
@@ -120,8 +121,8 @@ HAWSER_INLINE void store_transposed(const Pack<W>* rows, double* to, int lanes) 
 }
 
 template <class Shape, int W>
-HAWSER_INLINE void write_residual(const V3<Pack<W>>* f, const NodalAxial& axial, int e, int lanes,
-                                  Running<3 * Shape::node_vectors, W>& before, double* to) {
+HAWSER_INLINE void write_residual(const V3<Pack<W>>* f, const NodalAxial& axial, int e, int lanes, Running<3 * Shape::node_vectors, W>& before,
+                                  double* to) {
   constexpr int n = Shape::node_vectors, B = 3 * n;
   Pack<W> rows[B];
   for (int i = 0; i < n; ++i)

@@ -51,13 +51,7 @@ inline DynamicRun run_dynamic(const Scene& scene) {
   if (!start.report.converged) return run;
   const Model& model = start.model;
   const Assembler assembler(model);
-  SimulateOptions options;
-  options.duration = scene.dynamics->duration;
-  options.step = scene.dynamics->step;
-  options.spectral_radius = scene.dynamics->spectral_radius;
-  options.output_interval = scene.dynamics->output_interval;
-  options.tolerance = scene.solve.newton_tolerance.value_or(0.0);
-  options.linear_solver = linear_solver_kind(scene.solve.linear_solver);
+  const SimulateOptions options = simulate_options(scene);
   const auto node = [&model](const State& s, int i) { return Vec3(Eigen::Map<const Vec3>(&s.q[model.dof(0, i)])); };
   const auto observe = [&](const State& s, const SimulateCounters&) {
     const LineResult line = observe_line(model, s, 0);

@@ -146,6 +146,17 @@ Interval output_interval(const SimulateOptions& options, double from, long k) {
 
 }  // namespace
 
+SimulateOptions simulate_options(const Scene& scene) {
+  SimulateOptions options;
+  options.duration = scene.dynamics->duration;
+  options.step = scene.dynamics->step;
+  options.spectral_radius = scene.dynamics->spectral_radius;
+  options.output_interval = scene.dynamics->output_interval;
+  options.tolerance = scene.solve.newton_tolerance.value_or(0.0);
+  options.linear_solver = linear_solver_kind(scene.solve.linear_solver);
+  return options;
+}
+
 SimulateReport simulate(const Assembler& assembler, const SimulateOptions& options, State& state, const Observer& observe) {
   Run run(assembler, options, state);
   SimulateReport& report = run.report();

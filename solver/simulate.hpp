@@ -24,6 +24,9 @@ struct SimulateOptions {
   int max_halvings = 10;
 };
 
+/// The options that a scene with dynamics asks for.
+SimulateOptions simulate_options(const Scene& scene);
+
 struct SimulateCounters {
   long steps = 0;
   long newton_iterations = 0;

@@ -20,17 +20,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-SimulateOptions options_of(const Scene& scene) {
-  SimulateOptions options;
-  options.duration = scene.dynamics->duration;
-  options.step = scene.dynamics->step;
-  options.spectral_radius = scene.dynamics->spectral_radius;
-  options.output_interval = scene.dynamics->output_interval;
-  options.tolerance = scene.solve.newton_tolerance.value_or(0.0);
-  options.linear_solver = linear_solver_kind(scene.solve.linear_solver);
-  return options;
-}
-
 /// The state at t = 0; where it is an equilibrium, its report goes to `run`.
 State start_state(const Request& request, const Scene& scene, const Assembler& assembler, RunRecord& run) {
   const Model& model = assembler.model();
@@ -66,7 +55,7 @@ void integrate(const Request& request, const Scene& scene, const Assembler& asse
     return !interrupt.requested();
   };
   const Clock::time_point start = Clock::now();
-  run.dynamics = simulate(assembler, options_of(scene), state, observer);
+  run.dynamics = simulate(assembler, simulate_options(scene), state, observer);
   run.dynamic_seconds = seconds_since(start);
   progress.finish();
 }

@@ -44,14 +44,13 @@ struct Setup {
 
 class AssemblerOf : public ::testing::TestWithParam<Setup> {
  protected:
-  Scene scene(int elements = 150) const {
-    return test::loaded_line(elements, GetParam().EI_left, GetParam().EI_right, GetParam().model);
-  }
+  Scene scene(int elements = 150) const { return test::loaded_line(elements, GetParam().EI_left, GetParam().EI_right, GetParam().model); }
 };
 
 INSTANTIATE_TEST_SUITE_P(Families, AssemblerOf,
                          ::testing::Values(Setup{"bar", 0, 0, ModelChoice::bar}, Setup{"cable", 0, 0, ModelChoice::automatic},
-                                           Setup{"beam", 500.0, 900.0, ModelChoice::automatic}, Setup{"beam_and_cable", 500.0, 0.0, ModelChoice::automatic}),
+                                           Setup{"beam", 500.0, 900.0, ModelChoice::automatic},
+                                           Setup{"beam_and_cable", 500.0, 0.0, ModelChoice::automatic}),
                          [](const auto& setup) { return setup.param.name; });
 
 TEST_P(AssemblerOf, ResidualIsTheSumOfItsElements) {

@@ -174,7 +174,8 @@ TEST(Bending, GaussNewtonPartIsSemidefiniteAndExactWhereStraight) {
 TEST(ConstantMatrices, MassAndWeightAreThoseOfTheTheory) {
   // theory 2.1, which corrects the paper's (28): factors l in the slope entries.
   const double l = 2.5, m = 3.0;
-  const double M[4][4] = {{156, 22 * l, 54, -13 * l}, {22 * l, 4 * l * l, 13 * l, -3 * l * l}, {54, 13 * l, 156, -22 * l}, {-13 * l, -3 * l * l, -22 * l, 4 * l * l}};
+  const double M[4][4] = {
+      {156, 22 * l, 54, -13 * l}, {22 * l, 4 * l * l, 13 * l, -3 * l * l}, {54, 13 * l, 156, -22 * l}, {-13 * l, -3 * l * l, -22 * l, 4 * l * l}};
   const double Q[4] = {l / 2, l * l / 12, l / 2, -l * l / 12};
   Case c{};
   c.x[0][3] = c.x[0][9] = 1.0;
@@ -184,7 +185,8 @@ TEST(ConstantMatrices, MassAndWeightAreThoseOfTheTheory) {
   c.properties[5] = 7.0;
   c.properties[10] = -1.0e300;
   ElementResult<HermiteShape, double> out;
-  whole_element<CableDry, Want::tangent>(state_of<double>(c, [](double v, int) { return v; }), properties_of<double>(c), Weights{0, 0, 1, false}, current, out);
+  whole_element<CableDry, Want::tangent>(state_of<double>(c, [](double v, int) { return v; }), properties_of<double>(c), Weights{0, 0, 1, false},
+                                         current, out);
   double translation = 0.0;
   for (int i = 0; i < 4; ++i) {
     EXPECT_NEAR(out.f[i][2], 7.0 * Q[i], 1.0e-14 * 7.0 * l * l);
@@ -206,7 +208,8 @@ TEST(Axial, StraightUniformStretchGivesTheTensionAtBothEnds) {
   c.properties[1] = EA;
   c.properties[10] = -1.0e300;
   ElementResult<HermiteShape, double> out;
-  whole_element<CableDry, Want::force>(state_of<double>(c, [](double v, int) { return v; }), properties_of<double>(c), Weights{1, 0, 0, false}, current, out);
+  whole_element<CableDry, Want::force>(state_of<double>(c, [](double v, int) { return v; }), properties_of<double>(c), Weights{1, 0, 0, false},
+                                       current, out);
   EXPECT_NEAR(out.f[0][0], -EA * 0.01, 1.0e-9);
   EXPECT_NEAR(out.f[2][0], EA * 0.01, 1.0e-9);
   for (int i : {1, 3}) EXPECT_NEAR(out.f[i][0], 0.0, 1.0e-9);  // a uniform stretch does no work on the slopes alone
