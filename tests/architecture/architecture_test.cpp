@@ -55,6 +55,8 @@ struct IncludeRule {
   const char* place;
 };
 
+void PrintTo(const IncludeRule& rule, std::ostream* out) { *out << rule.place; }
+
 const IncludeRule rules[] = {
     {"OnlySolverAndBenchSeeTheSolver", R"(solver/.*)", R"((solver|bench)/.*)"},
     {"OnlyTheProgramAndBenchSeeTheProgram", R"(solver/app/.*)", R"((solver/app|bench)/.*)"},
