@@ -60,7 +60,7 @@ class Catenary : public ::testing::TestWithParam<CatenaryTest> {};
 TEST_P(Catenary, EndForcesAndStationsMeetTheClosedForm) {
   CatenaryCase c(GetParam().name);
   const auto [name_of_case, n, EA_ratio, largest_relative] = GetParam();
-  const auto elastic = [&](double EA) { return refined([&](int elements) { return c.values(EA, elements); }, n); };
+  const auto elastic = [&, coarse = n](double EA) { return refined([&](int elements) { return c.values(EA, elements); }, coarse); };
   const Numbers got = c.elastic() ? elastic(c.reference.parameter("EA")) : inextensible(elastic, EA_ratio * c.tension());
   const double T = c.tension(), position_noise = 0.25 * c.noise * c.L / c.reference.value("H");
 
