@@ -230,14 +230,14 @@ INSTANTIATE_TEST_SUITE_P(Data, Scenes,
                          ::testing::Values(SceneFile{"umbilical-heave", "umbilical", 200}, SceneFile{"catenary-5000", "tether", 1000},
                                            SceneFile{"falling-line", "rope", 512}, SceneFile{"swinging-bob", "rope", 128},
                                            SceneFile{"steady-tow", "tow", 200}, SceneFile{"current-shear", "tether", 1000},
-                                           SceneFile{"vehicle-on-tether", "tether", 150}));
+                                           SceneFile{"vehicle-on-tether", "tether", 150}, SceneFile{"lazy-wave-960", "wave", 389}));
 
 TEST(Scenes, OfTheDataFolderAreAllListedHere) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(HAWSER_SOURCE_DIR) + "/data/scenes")) {
     files += entry.path().extension() == ".toml";
   }
-  EXPECT_EQ(files, 7u);
+  EXPECT_EQ(files, 8u);
 }
 
 }  // namespace
