@@ -1,4 +1,5 @@
-// What a factorization and a solution cost an element, for every backend, 10^2 to 10^5 beam elements.
+// What a factorization and a solution cost an element, for every backend and SUNDIALS' own solver, 10^2 to 10^5 beam elements
+// (chain: 10^6).
 //
 //   hawser_bench --benchmark_filter=linear
 //
@@ -10,6 +11,7 @@
 #include <string>
 
 #include "bench/fixture.hpp"
+#include "bench/solvers.hpp"
 
 namespace {
 
@@ -18,12 +20,12 @@ using namespace hawser::bench;
 
 enum class Task { factorize, solve, both };
 
-void linear(benchmark::State& state, LinearSolverKind kind, Task task) {
+void linear(benchmark::State& state, const NamedSolver& named, Task task) {
   const int elements = static_cast<int>(state.range(0));
   MovingLine line(ModelChoice::beam, elements);
   line.assemble();
   line.assembler.reduce(line.tangent, line.r, line.rhs);
-  const auto solver = make_linear_solver(kind);
+  const auto solver = named.make();
   BlockTridiagonal& matrix = line.tangent.chain;
   if (!solver->takes_unsymmetric()) matrix.symmetrize();
   std::vector<double> x = line.rhs;
@@ -48,9 +50,12 @@ void linear(benchmark::State& state, LinearSolverKind kind, Task task) {
 const bool registered = [] {
   constexpr std::array<std::pair<Task, const char*>, 3> tasks = {{{Task::factorize, "factorize"}, {Task::solve, "solve"}, {Task::both, "both"}}};
   for (const auto& [task, word] : tasks)
-    for (const LinearSolverKind kind : all_linear_solvers()) {
-      const std::string name = std::string("linear/") + word + "/" + std::string(name_of(kind));
-      benchmark::RegisterBenchmark(name.c_str(), linear, kind, task)->RangeMultiplier(10)->Range(100, 100000)->Unit(benchmark::kMicrosecond);
+    for (const NamedSolver& solver : compared_solvers()) {
+      const std::string name = std::string("linear/") + word + "/" + solver.name;
+      benchmark::RegisterBenchmark(name.c_str(), linear, solver, task)
+          ->RangeMultiplier(10)
+          ->Range(100, solver.name == "chain" ? 1000000 : 100000)
+          ->Unit(benchmark::kMicrosecond);
     }
   return true;
 }();

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bench/fixture.hpp"
+#include "bench/solvers.hpp"
 
 namespace {
 
@@ -31,10 +32,10 @@ void reused_iteration(MovingLine& line, LinearSolver& solver) {
   line.assembler.expand(line.tangent, line.rhs, line.d);
 }
 
-void newton(benchmark::State& state, ModelChoice family, LinearSolverKind kind, bool reused) {
+void newton(benchmark::State& state, ModelChoice family, const NamedSolver& named, bool reused) {
   const int elements = static_cast<int>(state.range(0));
   MovingLine line(family, elements);
-  const auto solver = make_linear_solver(kind);
+  const auto solver = named.make();
   solver->analyze(line.tangent.chain);
   full_iteration(line, *solver);
   for (auto _ : state) {
@@ -54,12 +55,12 @@ void newton(benchmark::State& state, ModelChoice family, LinearSolverKind kind, 
 
 const bool registered = [] {
   for (const bool reused : {false, true})
-    for (const LinearSolverKind kind : all_linear_solvers())
+    for (const NamedSolver& solver : compared_solvers())
       for (const ModelChoice family : families) {
-        const bool chain = kind == LinearSolverKind::chain;
+        const bool chain = solver.name == "chain";
         if (!chain && family != ModelChoice::beam) continue;
-        const std::string name = std::string("newton/") + (reused ? "reused/" : "full/") + std::string(name_of(kind)) + "/" + word_of(family);
-        benchmark::RegisterBenchmark(name.c_str(), newton, family, kind, reused)
+        const std::string name = std::string("newton/") + (reused ? "reused/" : "full/") + solver.name + "/" + word_of(family);
+        benchmark::RegisterBenchmark(name.c_str(), newton, family, solver, reused)
             ->RangeMultiplier(10)
             ->Range(100, chain && family == ModelChoice::beam ? 1000000 : 100000)
             ->Unit(benchmark::kMicrosecond);

@@ -67,7 +67,8 @@ const IncludeRule rules[] = {
     {"LapackOnlyInLinear", R"((lapacke|cblas|lapack).*\.h)", R"(solver/linear/.*)"},
     {"Hdf5OnlyInTheRecorder", R"((hdf5/.*|hdf5.*\.h|H5.*\.h))", R"(solver/app/recorder.*)"},
     {"TomlOnlyInTheSceneReader", R"(toml\+\+.*)", R"(solver/app/toml_.*)"},
-    {"SundialsOnlyInItsFolder", R"((sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol|ida|idas|kinsol|cvode)/.*)", R"(solver/sundials/.*)"},
+    {"SundialsOnlyInItsFolder", R"((sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol|ida|idas|kinsol|cvode)/.*)",
+     R"((solver/sundials/.*|bench/sundials_.*))"},
 };
 
 class IncludeDirection : public testing::TestWithParam<IncludeRule> {};
