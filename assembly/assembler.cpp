@@ -8,6 +8,7 @@
 #include "assembly/bodies.hpp"
 #include "assembly/element.hpp"
 #include "assembly/joints.hpp"
+#include "assembly/seabed.hpp"
 #include "assembly/supports.hpp"
 #include "assembly/sweep.hpp"
 
@@ -187,6 +188,7 @@ void Assembler::residual(const State& state, std::span<double> r) const {
   }
   add_spread_loads(model_, state, r);
   add_bodies(model_, state, r);
+  add_seabed(model_, state, r);
 }
 
 void Assembler::tangent(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r, Tangent& tangent) const {
@@ -209,6 +211,7 @@ void Assembler::tangent(const State& state, const TangentWeights& weights, const
   }
   add_spread_loads(model_, state, r);
   add_bodies(model_, state, r, weights, tangent.chain);
+  add_seabed(model_, state, r, weights, tangent.chain);
   for (const Support& support : model_.supports) constrain(model_, support, tangent.chain);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "assembly/seabed.hpp"
+
 namespace hawser {
 
 namespace {
@@ -107,17 +109,21 @@ Element evaluate_element(const Model& model, const State& state, int line, int e
                          bool gauss_newton) {
   Element out;
   const Weights w{weights.stiffness, weights.damping, weights.mass, gauss_newton};
-  evaluate_family<Want::tangent>(model.lines[line].family, model.wet, element_state(model, state, line, element),
-                                 element_properties(model, element, least_tension), w, current_table(model), out);
+  const ElementState<double> x = element_state(model, state, line, element);
+  evaluate_family<Want::tangent>(model.lines[line].family, model.wet, x, element_properties(model, element, least_tension), w, current_table(model),
+                                 out);
   subtract_spread_loads(model, state, line, element, out.f);
+  add_contact(model, line, element, x, weights, out.f, &out.K);
   return out;
 }
 
 Vector12 element_force(const Model& model, const State& state, int line, int element) {
   Element out;
-  evaluate_family<Want::force>(model.lines[line].family, model.wet, element_state(model, state, line, element),
-                               element_properties(model, element, no_floor), Weights{1.0, 0.0, 0.0, false}, current_table(model), out);
+  const ElementState<double> x = element_state(model, state, line, element);
+  evaluate_family<Want::force>(model.lines[line].family, model.wet, x, element_properties(model, element, no_floor), Weights{1.0, 0.0, 0.0, false},
+                               current_table(model), out);
   subtract_spread_loads(model, state, line, element, out.f);
+  add_contact(model, line, element, x, TangentWeights{}, out.f, nullptr);
   return out.f;
 }
 

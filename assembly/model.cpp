@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "assembly/mesh.hpp"
+#include "assembly/seabed_build.hpp"
 
 namespace hawser {
 
@@ -74,6 +75,7 @@ class ModelBuilder {
     add_points();
     for (const LineSpec& line : scene_.lines) add_line(line);
     number_unknowns();
+    model_.seabed = make_seabed(scene_, model_);
     return std::move(model_);
   }
 

@@ -5,12 +5,15 @@
 // Properties are per unstretched length and per element, as arrays over all elements.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "assembly/block_tridiagonal.hpp"
+#include "assembly/environment/seabed_surface.hpp"
 #include "assembly/environment/time_function.hpp"
 #include "assembly/scene.hpp"
+#include "assembly/seabed_law.hpp"
 #include "assembly/state.hpp"
 
 namespace hawser {
@@ -92,6 +95,16 @@ struct Current {
   double fastest() const;  // m/s, largest horizontal speed over the rows
 };
 
+/// The seabed and, for its static friction, where every node was laid: unstrained on the bed from the grounded end of its line,
+/// in plan towards the other end.
+struct Seabed {
+  SeabedSurface surface;
+  SeabedLaw law;
+  std::vector<Vec3> lay;         // m, of every node
+  std::vector<char> laid;        // of every line: an end is on the bed and the bed has friction
+  bool frozen_pressure = false;  // friction's tangent leaves out how the normal force and the direction change: stability checks
+};
+
 struct Model {
   std::vector<Line> lines;
   std::vector<Chain> chains;  // one per line, same order
@@ -103,6 +116,7 @@ struct Model {
   std::vector<Support> supports;
   std::vector<double> node_length;  // m: the shorter adjacent element, for norms (theory 6.1)
   Current current;
+  std::optional<Seabed> seabed;
   double gravity = 9.80665, water_density = 1025.0;
   bool wet = false;         // some element has drag or added mass
   Vec3 tow = Vec3::Zero();  // common velocity of a steady tow

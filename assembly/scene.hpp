@@ -135,10 +135,26 @@ struct CurrentRow {
   double heading = 0.0;  // rad from +x towards +y (degrees in the scene file)
 };
 
+/// Soundings of the seabed on a grid: x and y increase, z[j nx + i] at (x[i], y[j]).
+struct BathymetryGrid {
+  std::vector<double> x, y, z;  // m, at least two of x and of y
+};
+
+/// Contact with the seabed, on the centreline of a line (theory 5.4).
+struct SeabedSpec {
+  double stiffness = 3.0e3;                             // N/m per metre of line per metre of penetration
+  double smoothing = 0.0;                               // m, width of a quadratic toe
+  double damping = 0.0;                                 // N s/m2
+  double friction_axial = 0.0, friction_lateral = 0.0;  // Coulomb coefficients
+  double slip = 1.0e-4;                                 // m, elastic slip of static friction
+  std::optional<BathymetryGrid> bathymetry;             // absent: the plane z = -depth
+};
+
 struct Environment {
   double gravity = 9.80665;       // m/s2
   double water_density = 1025.0;  // kg/m3; 0: a dry scene
-  std::optional<double> depth;    // m: plane seabed at z = -depth
+  std::optional<double> depth;    // m: plane seabed at z = -depth; absent, and no bathymetry: no seabed
+  SeabedSpec seabed;
   std::vector<CurrentRow> current;
 };
 

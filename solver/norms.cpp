@@ -83,13 +83,16 @@ double reference_force(const Model& model, std::span<const double> unprojected) 
 
 double roundoff_force(const Model& model, const State& state) {
   double worst = 0.0;
+  const double k = model.seabed ? model.seabed->law.stiffness : 0.0;
   for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
     const Chain& chain = model.chain(line);
+    const bool laid = model.seabed && model.seabed->laid[line];
     for (int i = 0; i < model.lines[line].elements; ++i) {
       const int e = model.lines[line].first_element + i;
       const double l = model.element.length[e];
       const double r = std::max(ConstVec3(&state.q[chain.dof(i)]).norm(), ConstVec3(&state.q[chain.dof(i + 1)]).norm());
-      worst = std::max(worst, model.element.EA[e] * std::max(1.0, r / l) + 12.0 * model.element.EI[e] * r / (l * l * l));
+      const double friction = laid ? friction_stiffness(model.seabed->law) * std::abs(model.element.weight[e]) : 0.0;
+      worst = std::max(worst, model.element.EA[e] * std::max(1.0, r / l) + 12.0 * model.element.EI[e] * r / (l * l * l) + (k + friction) * l * r);
     }
   }
   return 2.0 * std::numeric_limits<double>::epsilon() * worst;

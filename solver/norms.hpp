@@ -42,8 +42,9 @@ double reference_force(const Model& model, std::span<const double> unprojected);
 double largest_nodal_load(const Model& model);
 
 /// Residual that rounding leaves at an exact solution [N]: the largest over the elements of
-///   2 eps ( EA max(1, |r| / l) + 12 EI |r| / l^3 ),   |r| the larger of the element's ends.
-/// First part theory 6.1; second the bending force of a position error eps |r| (12 EI / l^3).
+///   2 eps ( EA max(1, |r| / l) + 12 EI |r| / l^3 + (k + mu w/d) |r| l ),   |r| the larger of the element's ends.
+/// First part theory 6.1; second the bending force of a position error eps |r| (12 EI / l^3); third, where there is a seabed,
+/// its normal force and its friction on an element that rests on it.
 double roundoff_force(const Model& model, const State& state);
 
 }  // namespace hawser

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/static_start_bed.hpp"
 #include "solver/static_start_catenary.hpp"
 #include "solver/static_start_loads.hpp"
 #include "solver/static_start_march.hpp"
@@ -154,8 +155,11 @@ LineShape start_of_line(const Model& model, int index, StaticStart start) {
     const bool hang_back = line.from_free && !line.to_free;
     return straight_shape(line, hang_back ? Vec3(to - line.length * direction) : from, direction, held ? chord.norm() / line.length : 1.0);
   }
-  if (held) return catenary_shape(model, index, from, to);
-  return march_from_free_end(model, index, line.from_free ? to : from);
+  LineShape shape = held ? catenary_shape(model, index, from, to) : march_from_free_end(model, index, line.from_free ? to : from);
+  if (!reaches_bed(model, shape)) return shape;
+  if (const auto laid = laid_shape(model, index, from, to)) return *laid;
+  lift_onto_bed(model, shape);
+  return shape;
 }
 
 /// Ends where they are held, clamps along their direction, the whole system in the velocity of the tow.

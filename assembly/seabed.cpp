@@ -1,0 +1,303 @@
+#include "assembly/seabed.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "assembly/bracketed_root.hpp"
+
+namespace hawser {
+namespace {
+
+constexpr int points = 4;
+constexpr double gauss_x[points] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
+constexpr double gauss_w[points] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+constexpr int samples = 8;                 // of the penetration over an element, on a grid
+constexpr double root_resolution = 1e-15;  // of the element
+
+/// Shape functions and their derivatives by arc length at xi; those of the slopes are zero for a bar.
+struct Shapes {
+  Eigen::Vector4d s, ds;
+
+  Shapes(bool bar, double l, double x) {
+    if (bar) {
+      s << 1.0 - x, 0.0, x, 0.0;
+      ds << -1.0 / l, 0.0, 1.0 / l, 0.0;
+    } else {
+      s << 1.0 - x * x * (3.0 - 2.0 * x), l * x * (1.0 - x) * (1.0 - x), x * x * (3.0 - 2.0 * x), l * x * x * (x - 1.0);
+      ds << -6.0 * x * (1.0 - x) / l, (1.0 - x) * (1.0 - 3.0 * x), 6.0 * x * (1.0 - x) / l, x * (3.0 * x - 2.0);
+    }
+  }
+};
+
+using Columns = Eigen::Matrix<double, 3, 4>;  // r0, r0', r1, r1'
+
+Columns columns(const Nodal<double>& n) {
+  Columns c;
+  for (int i = 0; i < 3; ++i) c.row(i) << n.r0[i], n.s0[i], n.r1[i], n.s1[i];
+  return c;
+}
+
+Columns columns(const double* x, int block) {
+  Columns c = Columns::Zero();
+  for (int i = 0; i < 3; ++i) {
+    c(i, 0) = x[i], c(i, 2) = x[block + i];
+    if (block == 6) c(i, 1) = x[3 + i], c(i, 3) = x[9 + i];
+  }
+  return c;
+}
+
+/// Parts of an element, xi from a to b.
+struct Piece {
+  double a, b;
+};
+struct Pieces {
+  std::array<Piece, 2 * samples + 1> piece;
+  int count = 0;
+  const Piece* begin() const { return piece.data(); }
+  const Piece* end() const { return piece.data() + count; }
+};
+
+/// One element as the bed sees it.
+class ContactElement {
+ public:
+  ContactElement(const Model& model, int line, int element, const Columns& q)
+      : bed_(*model.seabed), bar_(model.lines[line].family == Family::bar), l_(model.element.length[element]), q_(q) {
+    const int node = model.lines[line].first_node + element - model.lines[line].first_element;
+    if (bed_.laid[line]) lay_[0] = bed_.lay[node], lay_[1] = bed_.lay[node + 1];
+    laid_ = bed_.laid[line];
+  }
+
+  /// Some part of the element may touch: its control polygon reaches the bed.
+  bool near() const {
+    Columns control = q_;
+    control.col(1) = q_.col(0) + (l_ / 3.0) * q_.col(1);
+    control.col(3) = q_.col(2) - (l_ / 3.0) * q_.col(3);
+    const Vec3 low = control.rowwise().minCoeff(), high = control.rowwise().maxCoeff();
+    return low.z() < bed_.surface.highest_within(low.x(), high.x(), low.y(), high.y());
+  }
+
+  /// Pieces with g > 0, cut where g = 0 and, if `toe`, where g = delta.
+  Pieces wet(bool toe) const;
+  /// Ends of pieces on which the penetration is monotone: exactly on a level bed (the extrema of the cubic), by sampling on a grid.
+  int monotone_cuts(std::array<double, samples + 1>& xi) const;
+
+  Shapes shapes(double xi) const { return Shapes(bar_, l_, xi); }
+  Vec3 position(const Shapes& n) const { return q_ * n.s; }
+  Vec3 slope(const Shapes& n) const { return q_ * n.ds; }
+  SurfacePoint<double> bed(const Vec3& r) const { return bed_.surface.at(r.x(), r.y()); }
+  double gap(double xi) const {
+    const Vec3 r = position(shapes(xi));
+    return bed_.surface.height(r.x(), r.y()) - r.z();
+  }
+  bool laid() const { return laid_; }
+  Vec3 lay(double xi) const { return (1.0 - xi) * lay_[0] + xi * lay_[1]; }
+  bool upward_only() const { return bed_.surface.level() && !laid_ && bed_.law.damping == 0.0; }
+  const Seabed& seabed() const { return bed_; }
+  double length() const { return l_; }
+
+ private:
+  const Seabed& bed_;
+  bool bar_, laid_ = false;
+  double l_;
+  Columns q_;
+  Vec3 lay_[2];
+};
+
+int ContactElement::monotone_cuts(std::array<double, samples + 1>& xi) const {
+  if (!bed_.surface.level()) {
+    for (int i = 0; i <= samples; ++i) xi[i] = static_cast<double>(i) / samples;
+    return samples + 1;
+  }
+  int count = 0;
+  xi[count++] = 0.0;
+  if (!bar_) {
+    // z'(xi) = a xi^2 + b xi + c
+    const double rise = q_(2, 2) - q_(2, 0), s0 = l_ * q_(2, 1), s1 = l_ * q_(2, 3);
+    const double a = 3.0 * (s0 + s1 - 2.0 * rise), b = 2.0 * (3.0 * rise - 2.0 * s0 - s1), c = s0;
+    const double discriminant = b * b - 4.0 * a * c;
+    if (discriminant > 0.0) {
+      const double h = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+      double roots[2] = {a != 0.0 ? h / a : -1.0, h != 0.0 ? c / h : -1.0};
+      if (roots[0] > roots[1]) std::swap(roots[0], roots[1]);
+      for (double x : roots)
+        if (x > 0.0 && x < 1.0) xi[count++] = x;
+    }
+  }
+  xi[count++] = 1.0;
+  return count;
+}
+
+Pieces ContactElement::wet(bool toe) const {
+  const double levels[2] = {0.0, bed_.law.smoothing};
+  const int level_count = toe && bed_.law.smoothing > 0.0 ? 2 : 1;
+  std::array<double, samples + 1> xi;
+  std::array<double, 2 * samples + 2> cut;
+  const int count = monotone_cuts(xi);
+  int cuts = 0;
+  cut[cuts++] = 0.0;
+  double left = gap(0.0);
+  for (int i = 1; i < count; ++i) {
+    const double right = gap(xi[i]);
+    const int first = cuts;
+    for (int k = 0; k < level_count; ++k) {
+      const double level = levels[k];
+      if ((left > level) == (right > level)) continue;
+      const auto above = [&](double x) { return gap(x) - level; };
+      cut[cuts++] = bracketed_root(above, xi[i - 1], xi[i], left - level, right - level, root_resolution);
+    }
+    std::sort(cut.begin() + first, cut.begin() + cuts);
+    left = right;
+  }
+  cut[cuts++] = 1.0;
+  Pieces wet;
+  for (int i = 0; i + 1 < cuts; ++i)
+    if (cut[i + 1] > cut[i] && gap(0.5 * (cut[i] + cut[i + 1])) > 0.0) wet.piece[wet.count++] = {cut[i], cut[i + 1]};
+  return wet;
+}
+
+V3<double> to_v3(const Vec3& x) { return {{x[0], x[1], x[2]}}; }
+
+/// The four force vectors and 4 x 4 blocks that a point of weight w (length included) adds: R = -s f.
+void add_point(const ContactElement& e, const Shapes& n, const ContactForce& c, double w, const TangentWeights& weights, Vector12& f, Matrix12* K) {
+  for (int i = 0; i < 4; ++i) f.segment<3>(3 * i) -= w * n.s[i] * c.force;
+  if (!K) return;
+  const Mat3 by_place = w * (weights.stiffness * c.d_r + weights.damping * c.d_v), by_slope = w * weights.stiffness * c.d_a;
+  for (int j = 0; j < 4; ++j) {
+    Mat3 column = n.s[j] * by_place;
+    if (e.laid()) column += n.ds[j] * by_slope;
+    for (int i = 0; i < 4; ++i) K->block<3, 3>(3 * i, 3 * j) -= n.s[i] * column;
+  }
+}
+
+/// The same where the bed pushes upward and nothing else.
+void add_upward_point(const SeabedLaw& law, const Shapes& n, double g, double w, const TangentWeights& weights, Vector12& f, Matrix12* K) {
+  const double N = w * contact_pressure(law, g);
+  for (int i = 0; i < 4; ++i) f[3 * i + 2] -= n.s[i] * N;
+  if (!K) return;
+  const double dN = w * weights.stiffness * contact_stiffness(law, g);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) (*K)(3 * i + 2, 3 * j + 2) += n.s[i] * n.s[j] * dN;
+}
+
+ContactForce force_at(const ContactElement& e, const Vec3& r, const Vec3& a, const Vec3& v, double xi, bool with_tangent) {
+  const SurfacePoint<double> bed = e.bed(r);
+  const Vec3 lay = e.laid() ? e.lay(xi) : Vec3::Zero();
+  const Vec3* laid = e.laid() ? &lay : nullptr;
+  if (with_tangent) return contact_tangent(e.seabed().law, bed, r, a, v, laid, e.seabed().frozen_pressure);
+  const V3<double> force = contact_force(e.seabed().law, bed, to_v3(r), to_v3(a), to_v3(v), laid);
+  ContactForce out;
+  out.force = Vec3(force[0], force[1], force[2]);
+  return out;
+}
+
+bool add_contact_of(const ContactElement& e, const Columns& v, const TangentWeights& weights, Vector12& f, Matrix12* K) {
+  const Pieces wet = e.wet(true);
+  for (const Piece& piece : wet)
+    for (int q = 0; q < points; ++q) {
+      const double width = piece.b - piece.a, xi = piece.a + width * gauss_x[q], w = gauss_w[q] * width * e.length();
+      const Shapes n = e.shapes(xi);
+      const Vec3 r = e.position(n);
+      if (e.upward_only())
+        add_upward_point(e.seabed().law, n, e.seabed().surface.highest() - r.z(), w, weights, f, K);
+      else
+        add_point(e, n, force_at(e, r, e.slope(n), v * n.s, xi, K != nullptr), w, weights, f, K);
+    }
+  return wet.count > 0;
+}
+
+void add_force(const Chain& chain, int node, const Vector12& f, std::span<double> r) {
+  for (int end = 0; end < 2; ++end)
+    for (int i = 0; i < chain.block; ++i) r[chain.dof(node + end) + i] += f[6 * end + i];
+}
+
+/// Force on the bed and the deepest place of a piece.
+void add_depth(const ContactElement& e, const Piece& piece, double s0, SeabedContact& out) {
+  const double width = piece.b - piece.a;
+  for (int q = 0; q < points; ++q)
+    out.force += gauss_w[q] * width * e.length() * contact_pressure(e.seabed().law, e.gap(piece.a + width * gauss_x[q]));
+  std::array<double, samples + 1> xi;
+  const int count = e.monotone_cuts(xi);
+  for (int i = 0; i < count; ++i) {
+    const double x = std::clamp(xi[i], piece.a, piece.b), g = e.gap(x);
+    if (g > out.largest_penetration) out.largest_penetration = g, out.largest_penetration_s = s0 + x * e.length();
+  }
+}
+
+/// Calls visit(element, first unknown of its left node, force, tangent or null) for every element in contact that has no joint.
+template <class Visit>
+void for_each_contact(const Model& model, const State& state, const TangentWeights& weights, bool with_tangent, Visit visit) {
+  if (!model.seabed) return;
+  Vector12 f;
+  Matrix12 K;
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
+    const Line& l = model.lines[line];
+    const Chain& chain = model.chain(line);
+    for (int i = 0; i < l.elements; ++i) {
+      const double* q = &state.q[chain.dof(i)];
+      const ContactElement e(model, line, l.first_element + i, columns(q, chain.block));
+      if (!e.near() || joint_of(model, l.first_element + i)) continue;
+      f.setZero();
+      if (with_tangent) K.setZero();
+      if (add_contact_of(e, columns(&state.v[chain.dof(i)], chain.block), weights, f, with_tangent ? &K : nullptr)) visit(chain, i, f, K);
+    }
+  }
+}
+
+}  // namespace
+
+void add_seabed(const Model& model, const State& state, std::span<double> r) {
+  for_each_contact(model, state, TangentWeights{}, false,
+                   [&](const Chain& chain, int node, const Vector12& f, const Matrix12&) { add_force(chain, node, f, r); });
+}
+
+void add_seabed(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, BlockTridiagonal& matrix) {
+  for_each_contact(model, state, weights, true, [&](const Chain& chain, int node, const Vector12& f, const Matrix12& K) {
+    add_force(chain, node, f, r);
+    double* blocks[2][2] = {{matrix.D(chain, node), matrix.U(chain, node)}, {matrix.L(chain, node), matrix.D(chain, node + 1)}};
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) {
+        Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>> block(blocks[i][j], chain.block, chain.block);
+        block += K.block(6 * i, 6 * j, chain.block, chain.block);
+      }
+  });
+}
+
+bool add_contact(const Model& model, int line, int element, const ElementState<double>& x, const TangentWeights& weights, Vector12& f, Matrix12* K) {
+  if (!model.seabed) return false;
+  const ContactElement e(model, line, element, columns(x.q));
+  return e.near() && add_contact_of(e, columns(x.v), weights, f, K);
+}
+
+Vec3 seabed_force(const Model& model, const State& state, int line, int element, double xi) {
+  if (!model.seabed) return Vec3::Zero();
+  const ElementState<double> x = element_state(model, state, line, element);
+  const ContactElement e(model, line, element, columns(x.q));
+  const Shapes n = e.shapes(xi);
+  return force_at(e, e.position(n), e.slope(n), columns(x.v) * n.s, xi, false).force;
+}
+
+SeabedContact observe_seabed(const Model& model, const State& state, int line) {
+  SeabedContact out;
+  if (!model.seabed) return out;
+  const Line& l = model.lines[line];
+  double on_bed_to = -1.0;  // m, where the last piece in contact ended
+  for (int i = 0; i < l.elements; ++i) {
+    const ContactElement e(model, line, l.first_element + i, columns(element_state(model, state, line, l.first_element + i).q));
+    if (!e.near()) continue;
+    for (const Piece& piece : e.wet(false)) {
+      const double a = piece.a == 0.0 ? l.s[i] : l.s[i] + piece.a * e.length(), b = piece.b == 1.0 ? l.s[i + 1] : l.s[i] + piece.b * e.length();
+      if (a > on_bed_to) {
+        if (on_bed_to > 0.0) out.touchdown.push_back(on_bed_to);
+        if (a > 0.0) out.touchdown.push_back(a);
+      }
+      on_bed_to = b;
+      out.length += b - a;
+      add_depth(e, piece, l.s[i], out);
+    }
+  }
+  if (on_bed_to > 0.0 && on_bed_to < l.length) out.touchdown.push_back(on_bed_to);
+  return out;
+}
+
+}  // namespace hawser

@@ -1,0 +1,73 @@
+// The force of the seabed on a line, per unstretched length [N/m], at one place of the line (theory 5.4).
+//
+//   g = z_bed(x, y) - z          penetration of the centreline, vertical [m]
+//   e = (-p, -q, 1)              normal of the bed, not of unit length (p, q: its slopes)
+//   N(g) = 0 (g <= 0),  k g^2/2 delta (g < delta),  k (g - delta/2)
+//   normal force    max(0, N - c phi e.v) e,   phi = min(g/delta, 1)
+//   friction        -N |e| D u/sqrt(u.u + d^2),   D = mu_l I + (mu_a - mu_l) t t^T
+//
+// On a level bed the force is k max(g, 0), upward; on a slope it has that vertical part and is normal to the bed. u is the displacement
+// from where the line was laid, along the bed; t the direction of the line along the bed; d the elastic slip: friction is a spring of
+// mu N/d for |u| << d and mu N beyond. It depends on the state alone (statics): no velocity, no history.
+#pragma once
+
+#include "assembly/environment/seabed_surface.hpp"
+
+namespace hawser {
+
+struct SeabedLaw {
+  double stiffness = 0.0;                               // k, N/m2
+  double smoothing = 0.0;                               // delta, m
+  double damping = 0.0;                                 // c, N s/m2
+  double friction_axial = 0.0, friction_lateral = 0.0;  // mu_a, mu_l
+  double slip = 1.0e-4;                                 // d, m
+
+  bool rubs() const { return friction_axial > 0.0 || friction_lateral > 0.0; }
+};
+
+/// Softens the direction t of a line that stands upright on the bed: its part along the bed counts against this.
+inline constexpr double upright_slope = 1.0e-3;
+
+template <class S>
+S contact_pressure(const SeabedLaw& law, const S& g) {
+  if (!(value_of(g) > 0.0)) return S(0.0);
+  if (value_of(g) < law.smoothing) return S(0.5 * law.stiffness / law.smoothing) * g * g;
+  return S(law.stiffness) * (g - S(0.5 * law.smoothing));
+}
+
+/// dN/dg for g > 0.
+inline double contact_stiffness(const SeabedLaw& law, double g) { return g < law.smoothing ? law.stiffness * g / law.smoothing : law.stiffness; }
+
+/// Largest stiffness of friction per unit of normal force [1/m].
+inline double friction_stiffness(const SeabedLaw& law) {
+  return (law.friction_axial > law.friction_lateral ? law.friction_axial : law.friction_lateral) / law.slip;
+}
+
+/// a: r'; lay: where this place of the line was laid, null without friction.
+template <class S>
+V3<S> contact_force(const SeabedLaw& law, const SurfacePoint<S>& bed, const V3<S>& r, const V3<S>& a, const V3<S>& v, const Vec3* lay) {
+  const S g = bed.height - r[2], N = contact_pressure(law, g);
+  const S &p = bed.slope[0], &q = bed.slope[1];
+  const V3<S> e{{-p, -q, S(1.0)}};
+  const S phi = law.smoothing > 0.0 ? minimum(g / S(law.smoothing), S(1.0)) : S(1.0);
+  V3<S> force = maximum(N - S(law.damping) * phi * dot(e, v), S(0.0)) * e;
+  if (lay == nullptr) return force;
+  const auto along_bed = [&](const S& x, const S& y) { return V3<S>{{x, y, p * x + q * y}}; };
+  const V3<S> u = along_bed(r[0] - S((*lay)[0]), r[1] - S((*lay)[1])), along = along_bed(a[0], a[1]);
+  const V3<S> t = (S(1.0) / square_root(dot(along, along) + S(upright_slope * upright_slope))) * along;
+  const S rub = N * square_root(dot(e, e)) / square_root(dot(u, u) + S(law.slip * law.slip));
+  add_scaled(force, S(-law.friction_lateral) * rub, u);
+  add_scaled(force, S(law.friction_lateral - law.friction_axial) * rub * dot(t, u), t);
+  return force;
+}
+
+/// The same force with its derivatives by r, r' and velocity.
+struct ContactForce {
+  Vec3 force = Vec3::Zero();
+  Mat3 d_r = Mat3::Zero(), d_a = Mat3::Zero(), d_v = Mat3::Zero();
+};
+
+ContactForce contact_tangent(const SeabedLaw& law, const SurfacePoint<double>& bed, const Vec3& r, const Vec3& a, const Vec3& v, const Vec3* lay,
+                             bool frozen_pressure);
+
+}  // namespace hawser
