@@ -90,13 +90,14 @@ inline TangentWeights step_weights() {
 
 struct MovingLine {
   Model model;
-  Assembler assembler{model};
+  Assembler assembler;
   State state;
   Tangent tangent;
   std::vector<double> r, rhs, d;
 
-  MovingLine(ModelChoice family, int elements, bool wet = true)
+  MovingLine(ModelChoice family, int elements, bool wet = true, int threads = 1)
       : model(build_model(line_scene(family, elements, wet))),
+        assembler(model, threads),
         state(moving_state(model)),
         tangent(assembler.make_tangent()),
         r(model.unknowns),

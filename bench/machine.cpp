@@ -1,7 +1,8 @@
 // Facts of the machine and the build, for the head of every JSON file.
+#include "bench/machine.hpp"
+
 #include <benchmark/benchmark.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <string>
 
@@ -9,20 +10,20 @@ namespace {
 
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
-const char* kernels() {
-  const char* forced = std::getenv("HAWSER_SIMD");
-  return forced ? forced : "widest of the processor";
+  std::string name = "unknown", family, model;
+  for (std::string line; std::getline(file, line) && !line.empty();) {
+    const auto value = [&] { return line.substr(line.find(':') + 2); };
+    if (line.starts_with("model name")) name = value();
+    if (line.starts_with("cpu family")) family = value();
+    if (line.starts_with("model\t")) model = value();
+  }
+  return family.empty() ? name : name + ", family " + family + ", model " + model;
 }
 
 const bool stated = [] {
   benchmark::AddCustomContext("processor", processor());
   benchmark::AddCustomContext("compiler", __VERSION__);
-  benchmark::AddCustomContext("kernels", kernels());
+  benchmark::AddCustomContext("kernels", std::string(hawser::bench::instruction_sets().back()));
   return true;
 }();
 
