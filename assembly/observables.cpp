@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "assembly/element.hpp"
+#include "assembly/seabed.hpp"
 
 namespace hawser {
 
@@ -72,7 +73,7 @@ EndForces end_forces(const Model& model, const State& state, int line, int eleme
   return {-f.segment<3>(0), f.segment<3>(6), f.segment<3>(3), f.segment<3>(9)};
 }
 
-/// d/ds of the tension vector from equilibrium of a slice: inertia - loads [N/m], spread loads left out.
+/// d/ds of the tension vector from equilibrium of a slice: inertia - loads [N/m], spread loads and the bed left out.
 Vec3 force_rate(const Model& model, const ElementView& e, int element, double xi) {
   const ElementArrays& p = model.element;
   const Vec3 t = e.q.slope(xi).normalized(), acceleration = e.a.value(xi);
@@ -88,12 +89,12 @@ Vec3 force_rate(const Model& model, const ElementView& e, int element, double xi
 }
 
 /// Tension vector inside an element: cubic Hermite through both ends with the rates of equilibrium.
-Vec3 force_inside(const Model& model, const ElementView& e, const EndForces& f, int element, double xi) {
+Vec3 force_inside(const Model& model, const State& state, int line, const ElementView& e, const EndForces& f, int element, double xi) {
   const double l = e.length, x2 = xi * xi, x3 = x2 * xi;
   const bool spread = std::any_of(model.spread_loads.begin(), model.spread_loads.end(), [&](const SpreadLoad& s) { return s.element == element; });
   if (spread) return (1.0 - xi) * f.left + xi * f.right;
-  return (1.0 - 3.0 * x2 + 2.0 * x3) * f.left + (3.0 * x2 - 2.0 * x3) * f.right + l * (xi - 2.0 * x2 + x3) * force_rate(model, e, element, 0.0) +
-         l * (x3 - x2) * force_rate(model, e, element, 1.0);
+  const auto rate = [&](double end) -> Vec3 { return force_rate(model, e, element, end) - seabed_force(model, state, line, element, end); };
+  return (1.0 - 3.0 * x2 + 2.0 * x3) * f.left + (3.0 * x2 - 2.0 * x3) * f.right + l * (xi - 2.0 * x2 + x3) * rate(0.0) + l * (x3 - x2) * rate(1.0);
 }
 
 double strain_tension(const Model& model, const ElementView& e, int element, double xi) {
@@ -105,7 +106,7 @@ Station station_at(const Model& model, const State& state, int line, int element
   Station s;
   s.position = e.q.value(xi);
   s.velocity = e.v.value(xi);
-  s.tension = force_inside(model, e, end_forces(model, state, line, element), element, xi).dot(e.q.slope(xi).normalized());
+  s.tension = force_inside(model, state, line, e, end_forces(model, state, line, element), element, xi).dot(e.q.slope(xi).normalized());
   s.curvature = model.lines[line].family == Family::bar ? 0.0 : material_curvature(e, xi);
   return s;
 }

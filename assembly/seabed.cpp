@@ -282,11 +282,16 @@ SeabedContact observe_seabed(const Model& model, const State& state, int line) {
   if (!model.seabed) return out;
   const Line& l = model.lines[line];
   double on_bed_to = -1.0;  // m, where the last piece in contact ended
+  // Rounding must not make a touchdown of an anchor that lies on the bed, or of a node.
+  const auto at_node = [&](double s, int i) {
+    const double near = 1e-9 * l.length;
+    return s < l.s[i] + near ? l.s[i] : s > l.s[i + 1] - near ? l.s[i + 1] : s;
+  };
   for (int i = 0; i < l.elements; ++i) {
     const ContactElement e(model, line, l.first_element + i, columns(element_state(model, state, line, l.first_element + i).q));
     if (!e.near()) continue;
     for (const Piece& piece : e.wet(false)) {
-      const double a = piece.a == 0.0 ? l.s[i] : l.s[i] + piece.a * e.length(), b = piece.b == 1.0 ? l.s[i + 1] : l.s[i] + piece.b * e.length();
+      const double a = at_node(l.s[i] + piece.a * e.length(), i), b = at_node(l.s[i] + piece.b * e.length(), i);
       if (a > on_bed_to) {
         if (on_bed_to > 0.0) out.touchdown.push_back(on_bed_to);
         if (a > 0.0) out.touchdown.push_back(a);

@@ -13,11 +13,6 @@ double diameter_of(const Scene& scene, const SectionSpec& section) {
   return type->diameter;
 }
 
-/// An end that lies on the bed: not higher above it than the line is thick.
-bool grounded(const SeabedSurface& bed, const Vec3& end, double diameter, double length) {
-  return height_above(bed, end) <= std::max(diameter, 1e-9 * length);
-}
-
 /// Nodes from `start` in the plan direction, arc length measured on the bed.
 void lay_out(const SeabedSurface& bed, const Line& line, const Vec3& start, const Vec3& direction, bool from, Vec3* lay) {
   double x = 0.0;  // m, plan distance
@@ -36,14 +31,22 @@ void lay_out(const SeabedSurface& bed, const Line& line, const Vec3& start, cons
 
 }  // namespace
 
+std::optional<SeabedSurface> seabed_surface(const Environment& environment) {
+  if (environment.seabed.bathymetry) return SeabedSurface(*environment.seabed.bathymetry);
+  if (environment.depth) return SeabedSurface(-*environment.depth);
+  return std::nullopt;
+}
+
+double grounding_height(double diameter, double length) { return std::max(diameter, 1e-9 * length); }
+
 double height_above(const SeabedSurface& bed, const Vec3& r) { return r.z() - bed.height(r.x(), r.y()); }
 
 std::optional<Seabed> make_seabed(const Scene& scene, const Model& model) {
-  const Environment& sea = scene.environment;
-  const SeabedSpec& spec = sea.seabed;
-  if (!sea.depth && !spec.bathymetry) return std::nullopt;
+  const SeabedSpec& spec = scene.environment.seabed;
+  const std::optional<SeabedSurface> surface = seabed_surface(scene.environment);
+  if (!surface) return std::nullopt;
   Seabed bed;
-  bed.surface = spec.bathymetry ? SeabedSurface(*spec.bathymetry) : SeabedSurface(-*sea.depth);
+  bed.surface = *surface;
   bed.law = {spec.stiffness, spec.smoothing, spec.damping, spec.friction_axial, spec.friction_lateral, spec.slip};
   bed.laid.assign(model.lines.size(), false);
   if (!bed.law.rubs()) return bed;
@@ -52,8 +55,10 @@ std::optional<Seabed> make_seabed(const Scene& scene, const Model& model) {
     const Line& line = model.lines[i];
     const LineSpec& written = scene.lines[i];
     const Vec3 a = model.points[line.from].motion(0.0).r, b = model.points[line.to].motion(0.0).r;
-    const bool from = !line.from_free && grounded(bed.surface, a, diameter_of(scene, written.sections.front()), line.length);
-    const bool to = !line.to_free && grounded(bed.surface, b, diameter_of(scene, written.sections.back()), line.length);
+    const auto grounded = [&](const Vec3& end, const SectionSpec& section) {
+      return height_above(bed.surface, end) <= grounding_height(diameter_of(scene, section), line.length);
+    };
+    const bool from = !line.from_free && grounded(a, written.sections.front()), to = !line.to_free && grounded(b, written.sections.back());
     if (!from && !to) continue;
     Vec3 direction = from ? Vec3(b - a) : Vec3(a - b);
     direction.z() = 0.0;

@@ -10,6 +10,12 @@ namespace hawser {
 /// Absent where the scene has no seabed. Lines, points and elements of the model must stand.
 std::optional<Seabed> make_seabed(const Scene& scene, const Model& model);
 
+/// The bed of an environment; absent where it has none.
+std::optional<SeabedSurface> seabed_surface(const Environment& environment);
+
+/// An end not higher above the bed than this [m] lies on it: the line's diameter.
+double grounding_height(double diameter, double length);
+
 /// How far a place is above the bed [m].
 double height_above(const SeabedSurface& bed, const Vec3& r);
 

@@ -95,12 +95,23 @@ std::string line_text(const Scene& scene, const Model& model, int index) {
   return text;
 }
 
+std::string bed_text(const Environment& sea) {
+  const SeabedSpec& bed = sea.seabed;
+  if (!sea.depth && !bed.bathymetry) return "";
+  std::string text = sea.depth ? fmt::format(", depth {:.6g} m", *sea.depth)
+                               : fmt::format(", seabed of {} x {} soundings", bed.bathymetry->x.size(), bed.bathymetry->y.size());
+  text += fmt::format(", bed {:.4g} N/m2", bed.stiffness);
+  if (bed.friction_axial == bed.friction_lateral)
+    return text + (bed.friction_axial > 0.0 ? fmt::format(", friction {:.3g}", bed.friction_axial) : "");
+  return text + fmt::format(", friction {:.3g} axial, {:.3g} lateral", bed.friction_axial, bed.friction_lateral);
+}
+
 std::string check_text(const Scene& scene, const Model& model) {
   const Environment& sea = scene.environment;
   const CostEstimate cost = estimate_cost(scene, model);
-  std::string text = fmt::format("{}\ngravity {:.6g} m/s2, water {:.6g} kg/m3, {}{}\n\n", scene.title, sea.gravity, sea.water_density,
-                                 sea.current.empty() ? std::string("no current") : fmt::format("current up to {:.3g} m/s", model.current.fastest()),
-                                 sea.depth ? fmt::format(", depth {:.6g} m", *sea.depth) : "");
+  std::string text =
+      fmt::format("{}\ngravity {:.6g} m/s2, water {:.6g} kg/m3, {}{}\n\n", scene.title, sea.gravity, sea.water_density,
+                  sea.current.empty() ? std::string("no current") : fmt::format("current up to {:.3g} m/s", model.current.fastest()), bed_text(sea));
   for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) text += line_text(scene, model, i) + '\n';
   text += fmt::format("{} unknowns, linear solver {}, {} thread{}, about {}\n", model.unknowns, scene.solve.linear_solver, scene.solve.threads,
                       scene.solve.threads == 1 ? "" : "s", with_prefix(cost.bytes, "B"));
@@ -123,6 +134,8 @@ std::vector<std::string> terms_of(const Model& model, const Line& line) {
   if (any_in(e.drag_normal, line) || any_in(e.drag_tangential, line)) terms.emplace_back("drag");
   if (any_in(e.added_normal, line) || any_in(e.added_tangential, line)) terms.emplace_back("added mass");
   if (any_in(e.axial_damping, line)) terms.emplace_back("axial damping");
+  if (model.seabed) terms.emplace_back("seabed");
+  if (model.seabed && model.seabed->law.rubs()) terms.emplace_back("seabed friction");
   return terms;
 }
 

@@ -87,6 +87,10 @@ int command_run(const Request& request) {
   const Clock::time_point start = Clock::now();
   const Scene scene = read_request(request);
   if (!scene.dynamics) throw InputError(fmt::format("{} has no [dynamics]: nothing to run (hawser static computes its equilibrium)", scene.path));
+  const SeabedSpec& bed = scene.environment.seabed;
+  if (bed.friction_axial > 0.0 || bed.friction_lateral > 0.0)
+    throw InputError(
+        fmt::format("{}: friction of the seabed in motion is not built yet; `--set environment.seabed.friction=0` runs without", scene.path));
   const Model model = build_requested_model(scene);
   OutputFolder folder(request.out.empty() ? fs::path(scene.path).stem().string() + ".out" : request.out);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "assembly/observables.hpp"
+#include "assembly/seabed.hpp"
 #include "solver/app/command_static.hpp"
 #include "solver/app/text.hpp"
 
@@ -36,6 +37,16 @@ Json stations_json(const std::vector<Station>& stations) {
   return json;
 }
 
+Json seabed_json(const Model& model, const State& state, int index, const SeabedContact& contact) {
+  Json places = Json::array();
+  for (const Station& station : observe_stations(model, state, index, contact.touchdown)) places.push_back(to_json(station.position));
+  return {{"touchdown_positions", places},
+          {"length", contact.length},
+          {"force", contact.force},
+          {"penetration_max", contact.largest_penetration},
+          {"penetration_max_s", contact.largest_penetration_s}};
+}
+
 Json line_json(const Model& model, const StaticSolution& solution, int index, int stations) {
   const Line& line = model.lines[static_cast<std::size_t>(index)];
   const LineResult result = observe_line(model, solution.state, index);
@@ -44,7 +55,8 @@ Json line_json(const Model& model, const StaticSolution& solution, int index, in
   json["tension_to"] = result.tension_to;
   json["elements"] = line.elements;
   json["error_estimate"] = solution.error_estimates[static_cast<std::size_t>(index)];
-  json["touchdown"] = Json::array();
+  const SeabedContact contact = observe_seabed(model, solution.state, index);
+  json["touchdown"] = contact.touchdown;
   json["moment_from"] = to_json(result.moment_from);
   json["moment_to"] = to_json(result.moment_to);
   json["torque_from"] = 0.0;
@@ -56,6 +68,7 @@ Json line_json(const Model& model, const StaticSolution& solution, int index, in
   json["curvature_max"] = result.curvature_max;
   json["curvature_max_s"] = result.curvature_max_s;
   json["compressed_length"] = result.compressed_length;
+  if (model.seabed) json["seabed"] = seabed_json(model, solution.state, index, contact);
   json["stations"] = stations_json(stations_for(model, solution.state, index, stations));
   return json;
 }
@@ -67,6 +80,20 @@ Json failure_json(const Failure& failure) {
 /// A force for people: what is below the accuracy of the solve is rounding and shown as zero.
 std::string force_text(double force, const StaticReport& report) {
   return with_prefix(std::abs(force) < 1e-9 * report.reference_force ? 0.0 : force, "N");
+}
+
+/// What rests on the bed, a row a line that touches it, and a blank line.
+std::string seabed_text(const Model& model, const State& state) {
+  std::vector<std::vector<std::string>> rows{{"on the seabed", "touchdown at s [m]", "length", "force", "deepest"}};
+  for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) {
+    const SeabedContact c = observe_seabed(model, state, i);
+    if (c.length == 0.0) continue;
+    std::string places;
+    for (const double s : c.touchdown) places += fmt::format("{}{:.2f}", places.empty() ? "" : ", ", s);
+    rows.push_back({model.lines[static_cast<std::size_t>(i)].name, places.empty() ? "none" : places, fmt::format("{:.6g} m", c.length),
+                    with_prefix(c.force, "N"), fmt::format("{:.2g} m at s = {:.6g} m", c.largest_penetration, c.largest_penetration_s)});
+  }
+  return rows.size() > 1 ? table(rows) + '\n' : "";
 }
 
 }  // namespace
@@ -123,9 +150,10 @@ std::string static_text(const Scene& scene, const Model& model, const StaticSolu
     for (int axis = 0; axis < 3; ++axis) row.push_back(force_text(results[i].force[axis], report));
     points.push_back(row);
   }
-  return fmt::format("{}\n{} equilibrium after {} factorizations ({}), residual {:.1e} of {}, {:.3g} s\n\n{}\n{}", scene.title,
+  const std::string on_bed = model.seabed ? seabed_text(model, solution.state) : "";
+  return fmt::format("{}\n{} equilibrium after {} factorizations ({}), residual {:.1e} of {}, {:.3g} s\n\n{}\n{}{}", scene.title,
                      report.stable ? "stable" : "UNSTABLE", report.iterations, report.linear_solver, report.residual,
-                     with_prefix(report.reference_force, "N"), solution.wall_seconds, table(lines), table(points));
+                     with_prefix(report.reference_force, "N"), solution.wall_seconds, table(lines), on_bed, table(points));
 }
 
 }  // namespace hawser

@@ -45,6 +45,7 @@ Observation observe(const Model& model, const State& state, std::span<const std:
   observation.time = state.t;
   for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
     observation.lines.push_back(observe_line(model, state, line));
+    observation.seabed.push_back(observe_seabed(model, state, line));
     const auto& wanted = stations[static_cast<std::size_t>(line)];
     observation.stations.push_back(wanted.empty() ? std::vector<Station>() : observe_stations(model, state, line, wanted));
   }
@@ -71,6 +72,7 @@ std::vector<std::string> series_header(const Scene& scene, const Model& model) {
     for (const char* column : {"tension_from", "tension_to", "tension_max", "tension_min", "curvature_max", "curvature_max_s"}) {
       header.push_back(fmt::format("{}.{}", name, column));
     }
+    if (model.seabed) header.push_back(name + ".touchdown");
     const ClampedEnds clamped = clamped_ends(model, static_cast<int>(i));
     if (clamped.from) header.push_back(name + ".moment_from");
     if (clamped.to) header.push_back(name + ".moment_to");
@@ -104,6 +106,8 @@ void SeriesFile::append(const Observation& o) {
     for (const double value : {line.tension_from, line.tension_to, line.tension_max, line.tension_min, line.curvature_max, line.curvature_max_s}) {
       add(value);
     }
+    const std::vector<double>& touchdown = o.seabed[i].touchdown;
+    if (model_.seabed) add(touchdown.empty() ? std::numeric_limits<double>::quiet_NaN() : touchdown.front());
     const ClampedEnds clamped = clamped_ends(model_, static_cast<int>(i));
     if (clamped.from) add(line.moment_from.norm());
     if (clamped.to) add(line.moment_to.norm());

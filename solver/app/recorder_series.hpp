@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assembly/observables.hpp"
+#include "assembly/seabed.hpp"
 
 namespace hawser {
 
@@ -16,6 +17,7 @@ namespace hawser {
 struct Observation {
   double time = 0.0;                           // s
   std::vector<LineResult> lines;               // as Model::lines
+  std::vector<SeabedContact> seabed;           // as Model::lines
   std::vector<std::vector<Station>> stations;  // as Model::lines, in the order asked for
   std::vector<PointResult> points;             // as Model::points
 };

@@ -15,7 +15,7 @@ void check_scene(const Scene& scene, Document& document);
 /// Names, ends, sections, loads, stations and start files (scene_checks.cpp).
 void check_structure(const Scene& scene, Document& document);
 
-/// Positions and motions: strain at t = 0, straight starts, towing, reach of the seabed (scene_motion_checks.cpp).
+/// Positions and motions: strain at t = 0, straight starts, towing, ends and the seabed (scene_motion_checks.cpp).
 void check_motion(const Scene& scene, Document& document);
 
 /// Null where no such name exists.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assembly/environment/time_function.hpp"
+#include "assembly/seabed_build.hpp"
 #include "solver/app/scene_checks.hpp"
 
 namespace hawser {
@@ -11,39 +12,13 @@ namespace {
 
 constexpr double largest_strain = 0.5;       // at t = 0, between held ends
 constexpr double straight_tolerance = 1e-6;  // of the length: chord of an unstrained start
-constexpr double stretch_margin = 1.02;      // of the length, where a line might reach the seabed
-
-/// How far a point can go in the run.
-struct Excursion {
-  double lowest = 0.0;    // m, z
-  double sideways = 0.0;  // m, from its place at t = 0
-};
+constexpr double deep_below_bed = 1.0;       // m: no end of a line is meant to be there
 
 Vec3 place_at_start(const PointSpec& point) { return Motion(point.position, point.motion)(0.0).r; }
 
-Excursion excursion(const PointSpec& point, double duration) {
-  const Vec3 start = place_at_start(point);
-  Excursion out{std::min(start.z(), point.position.z()), 0.0};
-  if (!point.motion) return out;
-  if (point.motion->file) {
-    for (const Vec3& position : point.motion->file->value) {
-      out.lowest = std::min(out.lowest, position.z());
-      out.sideways = std::max(out.sideways, (position - start).head<2>().norm());
-    }
-    return out;
-  }
-  out.lowest += std::min(0.0, point.motion->velocity.z() * duration);
-  out.sideways = point.motion->velocity.head<2>().norm() * duration;
-  for (const Harmonic& h : point.motion->harmonics) {
-    out.lowest -= std::abs(h.amplitude * h.direction.z());
-    out.sideways += 2.0 * std::abs(h.amplitude) * h.direction.head<2>().norm();
-  }
-  return out;
-}
-
 class MotionCheck {
  public:
-  MotionCheck(const Scene& scene, Document& document) : scene_(scene), document_(document) {}
+  MotionCheck(const Scene& scene, Document& document) : scene_(scene), document_(document), bed_(seabed_surface(scene.environment)) {}
 
   void run() {
     for (const LineSpec& line : scene_.lines) {
@@ -51,7 +26,7 @@ class MotionCheck {
       if (from == nullptr || to == nullptr || (from->free && to->free)) continue;
       if (!from->free && !to->free) strain(line, *from, *to);
       if (scene_.dynamics && scene_.dynamics->start == StartChoice::straight) straight_start(line, *from, *to);
-      if (scene_.environment.depth) seabed(line, *from, *to);
+      if (bed_) seabed(line, *from, *to);
     }
     common_velocity();
     for (const PointSpec& point : scene_.points) {
@@ -81,20 +56,28 @@ class MotionCheck {
     }
   }
 
-  /// The lowest place an (almost) inextensible line can reach from its ends: on the ellipsoid with the ends as foci.
+  bool rests_on_bed(const PointSpec& end, double diameter, double length) const {
+    return !end.free && height_above(*bed_, place_at_start(end)) <= grounding_height(diameter, length);
+  }
+
+  /// Ends far below the bed, and friction that has no grounded end to start from.
   void seabed(const LineSpec& line, const PointSpec& from, const PointSpec& to) {
-    const double duration = scene_.dynamics ? scene_.dynamics->duration : 0.0;
-    const Excursion a = excursion(from, duration), b = excursion(to, duration);
-    const Vec3 chord = place_at_start(to) - place_at_start(from);
-    const bool free_end = from.free || to.free;
-    const double length = stretch_margin * (free_end ? length_of(line) : std::max(length_of(line), chord.norm()));
-    const double apart = std::max(0.0, chord.head<2>().norm() - a.sideways - b.sideways);
-    const double held = from.free ? b.lowest : a.lowest;
-    const double lowest = free_end ? held - length : 0.5 * (a.lowest + b.lowest - std::sqrt(std::max(0.0, length * length - apart * apart)));
-    if (!(lowest <= -*scene_.environment.depth)) return;
-    document_.error(KeyPath{"environment", "depth"}, fmt::format("seabed contact is not built yet, and line `{}` could reach the bed", line.name),
-                    fmt::format("the bed is at z = {:g} m, the line could reach z = {:.6g} m", -*scene_.environment.depth, lowest),
-                    {"remove `depth` for a scene without a seabed"});
+    for (const PointSpec* end : {&from, &to}) {
+      const double depth = end->free ? 0.0 : -height_above(*bed_, place_at_start(*end));
+      if (depth > deep_below_bed) {
+        document_.warn({"points", end->name}, fmt::format("point `{}` is {:.4g} m below the seabed", end->name, depth),
+                       "the bed pushes the line up from there");
+      }
+    }
+    const SeabedSpec& spec = scene_.environment.seabed;
+    if (!(spec.friction_axial > 0.0 || spec.friction_lateral > 0.0) || line.sections.empty()) return;
+    const LineType *first = find_line_type(scene_, line.sections.front().type), *last = find_line_type(scene_, line.sections.back().type);
+    if (first == nullptr || last == nullptr) return;
+    const double length = length_of(line);
+    if (rests_on_bed(from, first->diameter, length) || rests_on_bed(to, last->diameter, length)) return;
+    document_.warn({"environment", "seabed", "friction"},
+                   fmt::format("a static leaves out the friction of line `{}`: none of its ends is on the bed", line.name),
+                   "acts from where a line was laid, and it is laid from an end on the bed");
   }
 
   /// Velocity with which a held point starts; empty where a file says it.
@@ -143,6 +126,7 @@ class MotionCheck {
 
   const Scene& scene_;
   Document& document_;
+  std::optional<SeabedSurface> bed_;
 };
 
 }  // namespace

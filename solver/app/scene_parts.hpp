@@ -13,6 +13,7 @@
 namespace hawser {
 
 Environment read_environment(TableReader& scene);
+SeabedSpec read_seabed(TableReader& environment);
 std::vector<LineType> read_line_types(TableReader& scene);
 std::vector<PointSpec> read_points(TableReader& scene);
 std::vector<LineSpec> read_lines(TableReader& scene);

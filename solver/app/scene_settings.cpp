@@ -29,28 +29,6 @@ std::vector<CurrentRow> read_current(TableReader& environment) {
   return current;
 }
 
-/// Checked, not kept: a line that can reach the bed is refused (scene_checks).
-void read_seabed(TableReader& environment) {
-  const toml::table* table = environment.find_table("seabed");
-  if (table == nullptr) return;
-  TableReader seabed(environment.document(), *table, environment.path_of("seabed"));
-  seabed.number("stiffness", {kinds::force_per_area, positive}, 0.0);
-  seabed.number("smoothing", {kinds::length, not_negative}, 0.0);
-  seabed.number("damping", {kinds::damping_per_area, not_negative}, 0.0);
-  seabed.number("slip", {kinds::length, positive}, 0.0);
-  const toml::node* friction = seabed.find("friction");
-  if (friction != nullptr && friction->is_table()) {
-    TableReader both(environment.document(), *friction->as_table(), seabed.path_of("friction"));
-    both.number("axial", {kinds::number, not_negative});
-    both.number("lateral", {kinds::number, not_negative});
-    both.finish();
-  } else {
-    seabed.number("friction", {kinds::number, not_negative}, 0.0);
-  }
-  if (!environment.find("depth")) environment.error_at("seabed", "`environment.seabed` needs `environment.depth`");
-  seabed.finish();
-}
-
 std::optional<StartTable> read_start_table(TableReader& start) {
   const std::string file = file_name(start);
   if (file.empty()) return std::nullopt;
@@ -95,7 +73,7 @@ Environment read_environment(TableReader& scene) {
   environment.water_density = reader.number("water_density", {kinds::density, not_negative}, environment.water_density);
   environment.depth = reader.maybe_number("depth", {kinds::length, positive});
   environment.current = read_current(reader);
-  read_seabed(reader);
+  environment.seabed = read_seabed(reader);
   reader.finish();
   return environment;
 }

@@ -109,6 +109,15 @@ const Expected expected[] = {
        EXPECT_NEAR(o.at(2.0).to[0], 93.543201641114, 1e-5);  // 2e-6 m of the mesh, and the 3e-6 m of the reference
        EXPECT_NEAR(o.at(2.0).to[2], -19.61314122443, 1e-5);
      }},
+    {"mooring-chain",
+     [](const Outcome& o) {
+       // The rigid bed of the reference; the bed of the scene yields by 9.5 mm under the chain and adds 6e-5.
+       EXPECT_NEAR(o.at_rest.tension_to, 911088.357, 1e-4 * 911088.0);
+       EXPECT_NEAR(o.at_rest.tension_from, 736938.324, 1e-4 * 736938.0);
+       EXPECT_NEAR(o.at(0.0).tension_to, o.at_rest.tension_to, 1e-5 * o.at_rest.tension_to);    // the ramp starts with 0.06 m/s2
+       EXPECT_NEAR(o.at(60.0).tension_to, o.at(40.0).tension_to, 1e-2 * o.at_rest.tension_to);  // periodic after the ramp
+       EXPECT_GT(o.at(40.0).tension_to - o.at(50.0).tension_to, 1e5);                           // N: lifted and laid down again
+     }},
     {"vehicle-on-tether",
      [](const Outcome& o) {
        EXPECT_NEAR(o.at(0.0).tension_from, o.at_rest.tension_from, 1e-7 * o.at_rest.tension_from);  // the run starts in its equilibrium

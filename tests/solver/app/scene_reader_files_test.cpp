@@ -56,6 +56,21 @@ TEST_F(ReaderFiles, OfNoiseAreRefused) {
   EXPECT_NE(refusal(write("latin.toml", "title = \"caf\xE9\"\n")).find("latin.toml:1:1"), std::string::npos);
 }
 
+TEST_F(ReaderFiles, OfSoundingsMustFillAGrid) {
+  const auto refused = [this](const std::string& rows) {
+    write("bed.csv", rows);
+    return errors(with(sound_scene, "water_density = 1000.0", "seabed = { bathymetry = { file = \"bed.csv\" } }"));
+  };
+  EXPECT_EQ(refused("x,y,z\n0,0,-100\n1,0,-100\n0,1,-100\n1,1,-100\n"), "");
+  EXPECT_NE(refused("x,y,z\n0,0,-100\n1,0,-100\n0,1,-100\n").find("2 x and 2 y need 4 rows, it has 3"), std::string::npos);
+  EXPECT_NE(refused("x,y,z\n0,0,-100\n1,0,-100\n").find("it holds 2 x 1"), std::string::npos);
+  const std::string again = refused("x,y,z\n0,0,-100\n1,0,-100\n0,1,-100\n1,1,-100\n1,0,-99\n");
+  EXPECT_NE(again.find("bed.csv:6:1"), std::string::npos) << again;
+  EXPECT_NE(again.find("x = 1, y = 0 again: it stands in line 3"), std::string::npos) << again;
+  EXPECT_NE(refused("x,y\n0,0\n").find("the first line must be `x,y,z`"), std::string::npos);
+  EXPECT_NE(refused("x,y,z\n0,0,deep\n").find("bed.csv:2:5"), std::string::npos);
+}
+
 TEST_F(ReaderFiles, NestedAgainstTheStackAreRefused) {
   std::string dotted = "a", headers = "[a", quoted = "\",\"", lists = "a = ", tables = "a = ";
   for (int i = 0; i < 200000; ++i) {

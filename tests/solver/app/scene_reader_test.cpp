@@ -151,16 +151,55 @@ TEST_F(Reader, ReadsFilesBesideTheScene) {
   EXPECT_EQ(rows[1].velocity, Vec3(0, 0.2, 0));
 }
 
-TEST_F(Reader, AcceptsASeabedThatNoLineReaches) {
-  const std::string bed = "depth = 103.0\nseabed = { stiffness = 3e3, friction = { axial = 0.5, lateral = 0.6 }, slip = \"0.1 mm\" }";
-  EXPECT_EQ(read(with(sound_scene, "water_density = 1000.0", bed)).environment.depth, 103.0);
+TEST_F(Reader, KeepsTheSeabedWithItsDefaults) {
+  const Environment plain = read(with(sound_scene, "water_density = 1000.0", "depth = 103.0")).environment;
+  EXPECT_EQ(plain.depth, 103.0);
+  EXPECT_EQ(plain.seabed.stiffness, 3.0e3);
+  EXPECT_EQ(plain.seabed.smoothing, 0.0);
+  EXPECT_EQ(plain.seabed.damping, 0.0);
+  EXPECT_EQ(plain.seabed.friction_axial, 0.0);
+  EXPECT_EQ(plain.seabed.slip, 1.0e-4);
+  EXPECT_FALSE(plain.seabed.bathymetry);
 }
 
-TEST_F(Reader, MeasuresTheReachOfAHeldLineByTheEllipseOfItsEnds) {
-  // Ends at the surface, 60 m apart, length 100 m and 2 % of stretch: 51 m * sqrt(1 - (60/102)^2) = 41.24 m deep.
-  const std::string held = with(sound_scene, "free = true\nposition = [0.0, 0.0, -90.0]\nmass = 100.0", "position = [60.0, 0.0, 0.0]");
-  EXPECT_EQ(errors(with(held, "water_density = 1000.0", "depth = 41.3")), "");
-  EXPECT_NE(errors(with(held, "water_density = 1000.0", "depth = 41.2")).find("could reach z = -41.2432 m"), std::string::npos);
+TEST_F(Reader, KeepsTheLawOfTheSeabed) {
+  const std::string bed =
+      "depth = 103.0\nseabed = { stiffness = \"4 kN/m2\", smoothing = \"1 cm\", damping = 20, friction = { axial = 0.5, lateral = 0.6 }, slip = "
+      "\"0.2 mm\" }";
+  const SeabedSpec seabed = read(with(sound_scene, "water_density = 1000.0", bed)).environment.seabed;
+  EXPECT_EQ(seabed.stiffness, 4.0e3);
+  EXPECT_EQ(seabed.smoothing, 0.01);
+  EXPECT_EQ(seabed.damping, 20.0);
+  EXPECT_EQ(seabed.friction_axial, 0.5);
+  EXPECT_EQ(seabed.friction_lateral, 0.6);
+  EXPECT_EQ(seabed.slip, 2.0e-4);
+  const SeabedSpec same = read(with(sound_scene, "water_density = 1000.0", "depth = 103.0\nseabed = { friction = 0.7 }")).environment.seabed;
+  EXPECT_EQ(same.friction_axial, 0.7);
+  EXPECT_EQ(same.friction_lateral, 0.7);
+}
+
+TEST_F(Reader, ReadsSoundingsInAnyOrder) {
+  write("bed.csv", "# survey\nx,y,z\n10,0,-101\n0,0,-100\n0,5,-102\n\n10,5,-103\n20,5,-105\n20,0,-104\n");
+  const auto bed =
+      read(with(sound_scene, "water_density = 1000.0", "seabed = { bathymetry = { file = \"bed.csv\" } }")).environment.seabed.bathymetry;
+  ASSERT_TRUE(bed);
+  EXPECT_EQ(bed->x, (std::vector<double>{0, 10, 20}));
+  EXPECT_EQ(bed->y, (std::vector<double>{0, 5}));
+  EXPECT_EQ(bed->z, (std::vector<double>{-100, -101, -104, -102, -103, -105}));
+}
+
+TEST_F(Reader, WarnsOfWhatTheSeabedCannotMean) {
+  std::vector<Diagnostic> warnings;
+  const auto warned = [&](const std::string& text) {
+    warnings.clear();
+    read_scene(write("scene.toml", text), {}, &warnings);
+    return warnings.empty() ? std::string() : render(warnings[0]);
+  };
+  const std::string held = with(sound_scene, "free = true\nposition = [0.0, 0.0, -90.0]\nmass = 100.0", "position = [60.0, 0.0, -50.0]");
+  EXPECT_EQ(warned(with(held, "water_density = 1000.0", "depth = 50.0\nseabed = { friction = 0.5 }")), "");
+  EXPECT_NE(warned(with(held, "water_density = 1000.0", "depth = 48.5")).find("point `end` is 1.5 m below the seabed"), std::string::npos);
+  EXPECT_NE(warned(with(held, "water_density = 1000.0", "depth = 51.0\nseabed = { friction = 0.5 }")).find("none of its ends is on the bed"),
+            std::string::npos);
 }
 
 TEST_F(Reader, AcceptsSteadyTowAndStartsFromRest) {
@@ -237,7 +276,7 @@ TEST(Scenes, OfTheDataFolderAreAllListedHere) {
   for (const auto& entry : std::filesystem::directory_iterator(std::string(HAWSER_SOURCE_DIR) + "/data/scenes")) {
     files += entry.path().extension() == ".toml";
   }
-  EXPECT_EQ(files, 8u);
+  EXPECT_EQ(files, 9u);
 }
 
 }  // namespace
