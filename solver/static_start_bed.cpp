@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "assembly/bracketed_root.hpp"
+#include "assembly/seabed_build.hpp"
 #include "solver/static_start_catenary.hpp"
 #include "solver/static_start_loads.hpp"
 
@@ -117,7 +118,9 @@ class LaidLine {
     for (int e = line_.first_element; e < line_.first_element + line_.elements; ++e)
       softest = std::max({softest, model.element.length[e], std::cbrt(model.element.EI[e] / std::max(w, 1e-300))});
     least_H_ = w * softest;
-    rub_ = model.seabed->laid[index] ? model.seabed->law.friction_axial : 0.0;
+    rub_ = model.seabed->laid[index] ? model.seabed->law.friction_axial * w : 0.0;
+    lower_ = held_[0] && (!held_[1] || height_above(model.seabed->surface, from) <= height_above(model.seabed->surface, to)) ? 0 : 1;
+    bed_EA_ = model.element.EA[lower_ == 0 ? line_.first_element : line_.first_element + line_.elements - 1];
   }
 
   std::optional<LineShape> shape() {
@@ -147,20 +150,17 @@ class LaidLine {
     return x_[0] + x_[1] + on_bed() + stretch(line_.length - a_[1]) - X_;
   }
 
-  /// Tension on the bed at arc length s, and how much the bed part before s is longer than unstretched.
-  double bed_tension(double s) const {
-    const double w = -loads_.total(model_, line_).z() / line_.length;
-    const double pulled = s - a_[0], pulls = line_.length - a_[1] - s;
-    const double from_side = a_[0] > 0.0 || !held_[1] ? pulled : HUGE_VAL, to_side = a_[1] > 0.0 || a_[0] == 0.0 ? pulls : HUGE_VAL;
-    return std::max(0.0, H_ - rub_ * w * std::min(from_side, to_side));
-  }
+  /// Tension on the bed at arc length s: it falls from the touchdown that pulls, the one away from the lower end.
+  double bed_tension(double s) const { return std::max(0.0, H_ - rub_ * std::abs(s - pulled_at())); }
+  double pulled_at() const { return lower_ == 0 ? line_.length - a_[1] : a_[0]; }
+
+  /// How much the bed part before s is longer than unstretched: the integral of the tension over EA.
   double stretch(double s) const {
-    if (rub_ == 0.0) return H_ / model_.element.EA[line_.first_element] * (s - a_[0]);
-    constexpr int steps = 64;
-    const double l = (s - a_[0]) / steps;
-    double sum = 0.0;
-    for (int i = 0; i < steps; ++i) sum += l * bed_tension(a_[0] + (i + 0.5) * l) / model_.element.EA[line_.first_element];
-    return sum;
+    const auto integral = [&](double d) {
+      const double m = rub_ > 0.0 ? std::min(d, H_ / rub_) : d;
+      return m * (H_ - 0.5 * rub_ * m) / bed_EA_;
+    };
+    return lower_ == 0 ? integral(pulled_at() - a_[0]) - integral(pulled_at() - s) : integral(s - pulled_at());
   }
 
   bool balance() {
@@ -222,8 +222,10 @@ class LaidLine {
   Vec3 ends_[2];
   bool held_[2];
   Vec3 forward_;
-  double X_ = 0.0, least_H_ = 0.0, rub_ = 0.0;
-  double level_[2] = {0.0, 0.0};  // m, of the bed at the touchdowns
+  double X_ = 0.0, least_H_ = 0.0;
+  double rub_ = 0.0, bed_EA_ = 0.0;  // N/m, friction on the bed; N
+  int lower_ = 0;                    // the end nearer to the bed
+  double level_[2] = {0.0, 0.0};     // m, of the bed at the touchdowns
   double H_ = 0.0, a_[2] = {0.0, 0.0}, x_[2] = {0.0, 0.0};
 };
 
