@@ -1,13 +1,19 @@
-// Unpivoted LU of one block-tridiagonal chain, in linear time: point elimination in block clothing.
+// Unpivoted LU of one block-tridiagonal chain from both ends, in linear time: point elimination in block clothing.
 //
-//   D_k = L_k U_k   (unit lower, upper)      Y_k = L_k^-1 U(k, k+1)      X_k = L(k+1, k) U_k^-1      D_{k+1} -= X_k Y_k
+//   left front    D_k = L_k U_k   Y_k = L_k^-1 U(k, k+1)   X_k = L(k+1, k) U_k^-1   D_{k+1} -= X_k Y_k     k = 0, 1, ... m-1
+//   right front   D_k = L_k U_k   Y_k = L_k^-1 L(k, k-1)   X_k = U(k-1, k) U_k^-1   D_{k-1} -= X_k Y_k     k = n-1, n-2, ... m+1
+//   middle        D_m = L_m U_m   after both, m = n/2      (L_k unit lower, U_k upper triangular)
 //
-// These are the numbers of scalar Gaussian elimination, only grouped, so the backward error is of the order of the unit roundoff times
-// the growth of the entries (Golub & Van Loan, Matrix Computations, 4th ed., sections 3.3 and 4.5). The textbook form W_k = D_k^-1 U(k, k+1)
-// solves with each D_k by itself and loses as many digits as D_k is ill conditioned.
+// These are the numbers of scalar Gaussian elimination in the order of the fronts, only grouped, so the backward error is of the order of the
+// unit roundoff times the growth of the entries (Golub & Van Loan, Matrix Computations, 4th ed., sections 3.3 and 4.5). The textbook form
+// W_k = D_k^-1 U(k, k+1) solves with each D_k by itself and loses as many digits as D_k is ill conditioned.
 //
-// Values are laid out as in BlockTridiagonal: D, U, L of a node, column-major. The factors of a node take the same room in the order
-// L_k\U_k (reciprocal pivots on the diagonal), Y_k, X_k.
+// The fronts do not depend on each other. One core takes them in turn, so that one works while the other waits for its pivots; two threads take
+// one each. The numbers are the same bits either way.
+//
+// Values are laid out as in BlockTridiagonal: D, U, L of a node, column-major. Factors take the same room, block for block: L_k\U_k in the place
+// of D_k, Y_k and X_k in the places of the couplings they come from; the order within a block is the kernel's own. The columns of U_k are
+// divided by their pivots, and the diagonal holds the reciprocal pivots. U of the last node, unused, carries what the right front leaves at D_m.
 #pragma once
 
 #include <limits>
@@ -19,20 +25,29 @@ namespace hawser {
 struct PivotWatch {
   double smallest = std::numeric_limits<double>::infinity();  // pivots, absolute
   double largest = 0.0;
-  double growth_squared = 0.0;  // largest over the nodes: (Frobenius norm of the worked [L_k U_k, Y_k] / that of [D_k, U(k, k+1)])^2
+  double growth_squared = 0.0;  // largest over the nodes: (Frobenius norm of the worked [L_k U_k, Y_k] over that of [D_k, U(k, k+1)])^2
   double not_finite = 0.0;      // NaN as soon as a pivot is not finite, else zero
   int negative = 0;             // pivots
 };
 
+enum class Front { left, right, both };
+
 struct ChainKernel {
-  void (*factorize)(int block, int nodes, const double* values, double* factors, PivotWatch& watch);
-  void (*solve)(int block, int nodes, const double* factors, double* b);
+  /// The front or fronts up to the middle node, which `factorize_middle` completes.
+  void (*factorize)(int block, int nodes, const double* values, double* factors, Front front, PivotWatch& watch);
+  void (*factorize_middle)(int block, int nodes, const double* values, double* factors, PivotWatch& watch);
+
+  /// b becomes the solution: forward with both fronts, the middle, backward with both fronts.
+  void (*forward)(int block, int nodes, const double* factors, double* b, Front front);
+  void (*solve_middle)(int block, int nodes, const double* factors, double* b);
+  void (*backward)(int block, int nodes, const double* factors, double* b, Front front);
+
   const char* instruction_set;
 };
 
 extern const ChainKernel baseline_chain_kernel, avx2_chain_kernel, avx512_chain_kernel;
 
-/// The kernels this processor can run, fastest first.
+/// The kernels this processor can run, fastest first. HAWSER_SIMD=base|avx2 leaves out the wider ones.
 std::span<const ChainKernel* const> chain_kernels();
 
 }  // namespace hawser

@@ -1,241 +1,268 @@
-// The kernel of chain_kernel.hpp, compiled once for each instruction set by the chain_kernel*.cpp files.
-//
-// Everything here has internal linkage and nothing comes from other headers: an inline function shared with another file could be kept
-// by the linker in the wrong instruction set. The including file defines HAWSER_WIDEST_PACK: the compiler does not define __AVX__ after a
-// target pragma.
+// The kernel of chain_kernel.hpp, compiled once for each instruction set by the chain_kernel*.cpp files (chain_kernel_packs.hpp says how).
 #pragma once
 
 #include "solver/linear/chain_kernel.hpp"
-
-#define HAWSER_INLINE __attribute__((always_inline)) inline
-#define HAWSER_UNROLL _Pragma("GCC unroll 12")
+#include "solver/linear/chain_kernel_packs.hpp"
+#include "solver/linear/chain_kernel_solve.hpp"
 
 namespace hawser {
 
 namespace {
 
-constexpr int widest_pack = HAWSER_WIDEST_PACK;
-
-// Lanes of one pack; masks are compile-time constants once the loops around them are unrolled.
-template <int Lanes>
-struct Pack {
-  typedef double Doubles __attribute__((vector_size(8 * Lanes)));
-  typedef double Unaligned __attribute__((vector_size(8 * Lanes), aligned(8), may_alias));
-  typedef long long Rows __attribute__((vector_size(8 * Lanes)));
-  Doubles v;
-
-  HAWSER_INLINE void load(const double* p) { v = *reinterpret_cast<const Unaligned*>(p); }
-  HAWSER_INLINE void store(double* p) const { *reinterpret_cast<Unaligned*>(p) = v; }
+template <int N>
+struct Index {
+  static constexpr int value = N;
 };
 
-template <>
-struct Pack<1> {
-  typedef double Doubles;
-  double v;
+/// f(Index<0>), f(Index<1>), ... for the pairs of columns of a block, the last of which may be a single one.
+template <int B, class Function>
+HAWSER_INLINE void for_each_pair(Function f) {
+  f(Index<0>{}), f(Index<1>{});
+  if constexpr (B > 4) f(Index<2>{});
+}
+#define HAWSER_PAIR (auto pair) __attribute__((always_inline))
 
-  HAWSER_INLINE void load(const double* p) { v = *p; }
-  HAWSER_INLINE void store(double* p) const { *p = v; }
-};
+template <int B, int P>
+using PairOf = Panel<B, (2 * P + 1 < B ? 2 : 1)>;
 
-// A column of Rows entries: as many of the widest packs as fit, then narrower ones (6 = 4 + 2, 3 = 2 + 1).
-template <int Rows>
-struct Column {
-  static constexpr int lanes = Rows >= widest_pack ? widest_pack : Rows >= 2 ? 2 : 1;
-  Pack<lanes> head;
-  Column<Rows - lanes> tail;
-
-  static HAWSER_INLINE typename Pack<lanes>::Doubles zeros() { return typename Pack<lanes>::Doubles{}; }
-  static HAWSER_INLINE typename Pack<lanes>::Doubles ones() { return zeros() + 1.0; }
-
-  HAWSER_INLINE void load(const double* p) { head.load(p), tail.load(p + lanes); }
-  HAWSER_INLINE void store(double* p) const { head.store(p), tail.store(p + lanes); }
-  HAWSER_INLINE void set_all(double s) { head.v = zeros() + s, tail.set_all(s); }
-  HAWSER_INLINE void scale(double s) { head.v *= s, tail.scale(s); }
-  HAWSER_INLINE void subtract(const Column& c, double s) { head.v -= c.head.v * s, tail.subtract(c.tail, s); }
-  HAWSER_INLINE void add_squares(const Column& c) { head.v += c.head.v * c.head.v, tail.add_squares(c.tail); }
-
-  HAWSER_INLINE void add_zero_times(const Column& c) { head.v += c.head.v * 0.0, tail.add_zero_times(c.tail); }
-  HAWSER_INLINE void count_negatives(const Column& c) { head.v += c.head.v < 0.0 ? ones() : zeros(), tail.count_negatives(c.tail); }
-  HAWSER_INLINE void keep_smaller_and_larger(const Column& c, Column& larger) {
-    const auto size = c.head.v < 0.0 ? -c.head.v : c.head.v;
-    head.v = size < head.v ? size : head.v;
-    larger.head.v = size > larger.head.v ? size : larger.head.v;
-    tail.keep_smaller_and_larger(c.tail, larger.tail);
-  }
-
-  HAWSER_INLINE double at(int i) const {
-    if (i >= lanes) return tail.at(i - lanes);
-    if constexpr (lanes == 1)
-      return head.v;
-    else
-      return head.v[i];
-  }
-  HAWSER_INLINE double sum() const {
-    double s = tail.sum();
-    HAWSER_UNROLL for (int i = 0; i < lanes; ++i) s += at(i);
-    return s;
-  }
-
-  /// Takes the entries from row `first` on from c.
-  HAWSER_INLINE void replace_from(int first, const Column& c) {
-    if (first < lanes) {
-      if constexpr (lanes == 1) {
-        head.v = c.head.v;
-      } else {
-        typename Pack<lanes>::Rows row;
-        HAWSER_UNROLL for (int i = 0; i < lanes; ++i) row[i] = i;
-        head.v = row >= first ? c.head.v : head.v;
-      }
-    }
-    tail.replace_from(first - lanes, c.tail);
-  }
-};
-
-template <>
-struct Column<0> {
-  HAWSER_INLINE void load(const double*) {}
-  HAWSER_INLINE void store(double*) const {}
-  HAWSER_INLINE void set_all(double) {}
-  HAWSER_INLINE void scale(double) {}
-  HAWSER_INLINE void subtract(const Column&, double) {}
-  HAWSER_INLINE void add_squares(const Column&) {}
-  HAWSER_INLINE void add_zero_times(const Column&) {}
-  HAWSER_INLINE void count_negatives(const Column&) {}
-  HAWSER_INLINE void keep_smaller_and_larger(const Column&, Column&) {}
-  HAWSER_INLINE double at(int) const { return 0.0; }
-  HAWSER_INLINE double sum() const { return 0.0; }
-  HAWSER_INLINE void replace_from(int, const Column&) {}
-};
-
-// PivotWatch by rows of a node, so that no entry leaves its lane in the loop.
+// PivotWatch of one front; entries stay in their lanes until a node is done.
 template <int B>
-struct ColumnWatch {
-  Column<B> smallest, largest, not_finite, negative;
-  double growth_squared = 0.0;
+struct Watch {
+  using Squares = typename Panel<B, 2>::Squares;
+  using Two = PackTypes<2>;
+  Squares given, given_next, worked;
+  Two::Doubles smallest, largest;
+  Two::Rows negative;
+  double growth_squared;
 
-  HAWSER_INLINE void start() { smallest.set_all(__builtin_inf()), largest.set_all(0.0), not_finite.set_all(0.0), negative.set_all(0.0); }
-  HAWSER_INLINE void note(const Column<B>& pivots, double growth) {
-    smallest.keep_smaller_and_larger(pivots, largest);
-    not_finite.add_zero_times(pivots);
-    negative.count_negatives(pivots);
-    growth_squared = growth > growth_squared ? growth : growth_squared;
+  HAWSER_INLINE void start() {
+    given.set_all(0.0), given_next.set_all(0.0), worked.set_all(0.0);
+    smallest = Two::filled(__builtin_inf()), largest = Two::Doubles{}, negative = Two::Rows{}, growth_squared = 0.0;
+  }
+  HAWSER_INLINE void note_pivots(double p, double q) {
+    const Two::Doubles pivots = {p, q};
+    const Two::Doubles size = (Two::Doubles)((Two::Rows)pivots & 0x7fffffffffffffff);
+    smallest = Two::smaller(size, smallest), largest = Two::larger(size, largest);
+    negative -= pivots < 0.0;
+  }
+  HAWSER_INLINE void note_pivot(double p) {
+    note_pivots(p, p);
+    negative += Two::Rows{0, -(p < 0.0)};
+  }
+  HAWSER_INLINE void end_node() {
+    const double g = worked.sum() / given.sum();
+    growth_squared = g > growth_squared ? g : growth_squared;
+    given = given_next;
+    given_next.set_all(0.0), worked.set_all(0.0);
   }
   void add_to(PivotWatch& watch) const {
-    for (int i = 0; i < B; ++i) {
-      if (smallest.at(i) < watch.smallest) watch.smallest = smallest.at(i);
-      if (largest.at(i) > watch.largest) watch.largest = largest.at(i);
+    for (int i = 0; i < 2; ++i) {
+      if (smallest[i] < watch.smallest) watch.smallest = smallest[i];
+      if (largest[i] > watch.largest) watch.largest = largest[i];
+      watch.negative += static_cast<int>(negative[i]);
     }
     if (growth_squared > watch.growth_squared) watch.growth_squared = growth_squared;
-    watch.not_finite += not_finite.sum();
-    watch.negative += static_cast<int>(negative.sum());
   }
 };
 
-// Factorizes one node. In `factors`: D_k reduced by the nodes before, which becomes L_k\U_k. Leaves Y_k and X_k behind it, and D_{k+1}
-// reduced in the next node's place. `last` has no U and L.
+// The node a front is at.
 template <int B>
-HAWSER_INLINE void eliminate_node(const double* __restrict values, double* __restrict factors, bool last, ColumnWatch<B>& watch) {
-  constexpr int block = B * B;
-  const double *upper = values + block, *lower = values + 2 * block, *next = values + 3 * block;
-  Column<B> multiplier[B];  // columns of L_k, zero down to the diagonal
-  Column<B> x[B], zero, pivots, given, worked;
-  zero.set_all(0.0), given.set_all(0.0), worked.set_all(0.0), pivots.set_all(0.0);
-  HAWSER_UNROLL for (int j = 0; j < 2 * B; ++j) {  // D and U lie one behind the other
-    Column<B> column;
-    column.load(values + B * j);
-    given.add_squares(column);
-  }
-  const double given_squared = given.sum();
+struct Node {
+  typename Panel<B, 2>::Multiplier lower[B], x[B];  // columns of L_k, zero down to the diagonal, and of X_k
+  Watch<B> watch;
 
-  HAWSER_UNROLL for (int j = 0; j < B; ++j) {
-    Column<B> d;
-    d.load(factors + B * j), x[j].load(lower + B * j);
-    HAWSER_UNROLL for (int i = 0; i < j; ++i) {
-      const double u = d.at(i);
-      d.subtract(multiplier[i], u), x[j].subtract(x[i], u);
+  // Columns 2P and 2P + 1 of L_k\U_k in place of those of D_k, and of X_k. The middle node has no X_k.
+  //
+  // The reciprocal of the second pivot q - l u / p is p / (p q - l u): both divisions go on at once.
+  template <int P, bool HasNext>
+  HAWSER_INLINE void reduce(double* diagonal, const double* given_column, double* column) {
+    constexpr int first = 2 * P, second = first + 1;
+    using Pair = PairOf<B, P>;
+    Pair d, c;
+    d.load(diagonal + B * first);
+    if constexpr (HasNext) c.load_values(given_column + B * first);
+    HAWSER_UNROLL for (int i = 0; i < first; ++i) {
+      const auto u = d.row(i);
+      d.subtract(lower[i], u);
+      if constexpr (HasNext) c.subtract(x[i], u);
     }
-    worked.add_squares(d);
-    const double reciprocal = 1.0 / d.at(j);
-    pivots.replace_from(j, d);
-    x[j].scale(reciprocal);
-    multiplier[j] = zero;
-    multiplier[j].replace_from(j + 1, d);
-    multiplier[j].scale(reciprocal);
-    Column<B> diagonal;
-    diagonal.set_all(reciprocal);
-    d.replace_from(j, diagonal);
-    d.replace_from(j + 1, multiplier[j]);
-    d.store(factors + B * j), x[j].store(factors + 2 * block + B * j);
+    const double p = d.at(first, 0), reciprocal = 1.0 / p;
+    const auto a = d.scaled_column(0, reciprocal);
+    lower[first] = Pair::template zero_above<first + 1>(a);
+    const auto with_reciprocal = Pair::template with_entry<first>(a, reciprocal);
+    if constexpr (HasNext) x[first] = c.scaled_column(0, reciprocal);
+    if constexpr (second == B) {
+      watch.note_pivot(p), d.add_squares_to(watch.worked);
+      Pair::store_columns(diagonal + B * first, with_reciprocal, with_reciprocal);
+      if constexpr (HasNext) Pair::store_columns(column + B * first, x[first], x[first]);
+    } else {
+      const double u = d.at(first, 1), determinant = p * d.at(second, 1) - d.at(second, 0) * u, second_reciprocal = p / determinant;
+      d.subtract_from_second(lower[first], u);
+      d.add_squares_to(watch.worked);
+      const auto b = d.scaled_column(1, second_reciprocal);
+      lower[second] = Pair::template zero_above<second + 1>(b);
+      Pair::store_columns(diagonal + B * first, with_reciprocal, Pair::template with_entry<second>(b, second_reciprocal));
+      watch.note_pivots(p, determinant * reciprocal);
+      if constexpr (HasNext) {
+        c.subtract_from_second(x[first], u);
+        x[second] = c.scaled_column(1, second_reciprocal);
+        Pair::store_columns(column + B * first, x[first], x[second]);
+      }
+    }
+  }
+};
+
+template <int B, Front Side>
+struct Elimination {
+  using At = Blocks<B, Side>;
+  const double* values;
+  double* factors;
+  const double* next_values;
+  double* next_factors;
+  Node<B> node;
+
+  HAWSER_INLINE void start(int nodes, const double* chain_values, double* chain_factors) {
+    values = chain_values + At::first(nodes), factors = chain_factors + At::first(nodes);
+    next_values = values + At::next, next_factors = factors + At::next;
+    node.watch.start();
+    for_each_pair<B>([&] HAWSER_PAIR {
+      constexpr int from = At::diagonal + 2 * B * pair.value;
+      PairOf<B, pair.value> d;
+      d.load_values(values + from), d.store(factors + from);
+      d.add_squares_to(node.watch.given);
+    });
+  }
+  HAWSER_INLINE void advance() {
+    node.watch.end_node();
+    if constexpr (Side == Front::right) {
+      prefetch<24 * At::block, false>(values + fetched_ahead_to_factorize * At::step);
+      prefetch<24 * At::block, true>(factors + fetched_ahead_to_factorize * At::step);
+    }
+    values += At::step, factors += At::step, next_values += At::step, next_factors += At::step;
+  }
+  /// The right front leaves its share of the middle node aside, so that the left one need not wait.
+  HAWSER_INLINE void meet(int nodes, double* chain_factors) {
+    static constexpr double nothing[B * B] = {};
+    if constexpr (Side == Front::right) next_values = nothing, next_factors = chain_factors + At::left_at_middle(nodes);
   }
 
-  HAWSER_UNROLL for (int j = 0; j < B; ++j) {
-    if (last) break;
-    Column<B> y, d;
-    y.load(upper + B * j), d.load(next + B * j);
+  template <int P>
+  HAWSER_INLINE void reduce() {
+    node.template reduce<P, true>(factors + At::diagonal, values + At::column, factors + At::column);
+  }
+  // Columns 2P and 2P + 1 of Y_k and of what is left of the next node's D.
+  template <int P>
+  HAWSER_INLINE void update() {
+    constexpr int first = 2 * B * P;
+    PairOf<B, P> y, d;
+    y.load_values(values + At::row + first), d.load_values(next_values + first);
+    y.add_squares_to(node.watch.given), d.add_squares_to(node.watch.given_next);
     HAWSER_UNROLL for (int i = 0; i < B; ++i) {
-      const double u = y.at(i);
-      if (i + 1 < B) y.subtract(multiplier[i], u);
-      d.subtract(x[i], u);
+      const auto u = y.row(i);
+      if (i + 1 < B) y.subtract(node.lower[i], u);
+      d.subtract(node.x[i], u);
     }
-    worked.add_squares(y);
-    y.store(factors + block + B * j), d.store(factors + 3 * block + B * j);
+    y.add_squares_to(node.watch.worked);
+    y.store(factors + At::row + first), d.store(next_factors + first);
   }
-  watch.note(pivots, worked.sum() / given_squared);
+  HAWSER_INLINE void eliminate_node() {
+    for_each_pair<B>([&] HAWSER_PAIR { reduce<pair.value>(); });
+    for_each_pair<B>([&] HAWSER_PAIR { update<pair.value>(); });
+    advance();
+  }
+};
+
+template <int B, Front Side>
+void factorize_front(int nodes, const double* values, double* factors, PivotWatch& watch) {
+  const int count = Blocks<B, Side>::nodes_of(nodes);
+  if (count == 0) return;
+  Elimination<B, Side> front;
+  front.start(nodes, values, factors);
+  for (int k = 0; k < count; ++k) {
+    if (k + 1 == count) front.meet(nodes, factors);
+    front.eliminate_node();
+  }
+  front.node.watch.add_to(watch);
 }
 
 template <int B>
-void factorize_chain(int nodes, const double* __restrict values, double* __restrict factors, PivotWatch& watch) {
-  constexpr int node_values = 3 * B * B;
-  HAWSER_UNROLL for (int i = 0; i < B * B; ++i) factors[i] = values[i];
-  ColumnWatch<B> local;
-  local.start();
-  for (int k = 0; k + 1 < nodes; ++k) {
-    eliminate_node<B>(values, factors, false, local);
-    values += node_values, factors += node_values;
+void factorize_both(int nodes, const double* values, double* factors, PivotWatch& watch) {
+  const int pairs = Blocks<B, Front::right>::nodes_of(nodes);
+  if (pairs == 0) return factorize_front<B, Front::left>(nodes, values, factors, watch);
+  Elimination<B, Front::left> left;
+  Elimination<B, Front::right> right;
+  left.start(nodes, values, factors), right.start(nodes, values, factors);
+  for (int k = 0; k < pairs; ++k) {
+    if (k + 1 == pairs) right.meet(nodes, factors);
+    for_each_pair<B>([&] HAWSER_PAIR { left.template reduce<pair.value>(), right.template reduce<pair.value>(); });
+    for_each_pair<B>([&] HAWSER_PAIR { left.template update<pair.value>(), right.template update<pair.value>(); });
+    left.advance(), right.advance();
   }
-  eliminate_node<B>(values, factors, true, local);
-  local.add_to(watch);
+  if (pairs < Blocks<B, Front::left>::nodes_of(nodes)) left.eliminate_node();
+  left.node.watch.add_to(watch), right.node.watch.add_to(watch);
 }
 
-// Scalar on purpose: the recurrence from unknown to unknown is bound by latency, and moving entries in and out of packs doubles it.
 template <int B>
-__attribute__((optimize("no-tree-vectorize"))) void solve_chain(int nodes, const double* __restrict factors, double* __restrict b) {
-  constexpr int block = B * B, node_values = 3 * block;
-  double c[B], z[B];
-  HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = 0.0;
-  for (int k = 0; k < nodes; ++k, factors += node_values, b += B) {
-    HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] = b[i];
-    if (k > 0) {
-      HAWSER_UNROLL for (int j = 0; j < B; ++j) { HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] -= factors[B * j + i - block] * z[j]; }
-    }
-    HAWSER_UNROLL for (int j = 0; j < B; ++j) {
-      HAWSER_UNROLL for (int i = j + 1; i < B; ++i) c[i] -= factors[B * j + i] * c[j];
-      b[j] = z[j] = c[j];
-    }
-  }
-  for (int k = nodes - 1; k >= 0; --k) {
-    factors -= node_values, b -= B;
-    HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] = b[i];
-    if (k + 1 < nodes) {
-      HAWSER_UNROLL for (int j = B - 1; j >= 0; --j) { HAWSER_UNROLL for (int i = 0; i < B; ++i) c[i] -= factors[block + B * j + i] * z[j]; }
-    }
-    HAWSER_UNROLL for (int j = B - 1; j >= 0; --j) {
-      c[j] *= factors[B * j + j];
-      HAWSER_UNROLL for (int i = 0; i < j; ++i) c[i] -= factors[B * j + i] * c[j];
-      b[j] = z[j] = c[j];
-    }
-  }
+void factorize_middle_node(int nodes, const double* values, double* factors, PivotWatch& watch) {
+  using Left = Blocks<B, Front::left>;
+  const double* given = values + Left::middle(nodes);
+  double* middle = factors + Left::middle(nodes);
+  const double* from_right = factors + Left::left_at_middle(nodes);
+  Node<B> node;
+  node.watch.start();
+  for_each_pair<B>([&] HAWSER_PAIR {
+    constexpr int first = 2 * B * pair.value;
+    PairOf<B, pair.value> d, r;
+    d.load_values(given + first), d.add_squares_to(node.watch.given);
+    if (nodes > 1) d.load(middle + first);
+    if (nodes > 2) r.load(from_right + first), d.add(r);
+    d.store(middle + first);
+    node.template reduce<pair.value, false>(middle, nullptr, nullptr);
+  });
+  node.watch.end_node();
+  node.watch.add_to(watch);
+  for (int i = 0; i < B; ++i) watch.not_finite += 0.0 * middle[Panel<B, 2>::place(i, i)];  // a NaN anywhere before has come to here
 }
 
-void factorize(int block, int nodes, const double* values, double* factors, PivotWatch& watch) {
-  if (nodes == 0) return;
-  if (block == 3) factorize_chain<3>(nodes, values, factors, watch);
-  if (block == 6) factorize_chain<6>(nodes, values, factors, watch);
+template <int B>
+void factorize_any(int nodes, const double* values, double* factors, Front front, PivotWatch& watch) {
+  if (front == Front::both) factorize_both<B>(nodes, values, factors, watch);
+  if (front == Front::left) factorize_front<B, Front::left>(nodes, values, factors, watch);
+  if (front == Front::right) factorize_front<B, Front::right>(nodes, values, factors, watch);
 }
 
-void solve(int block, int nodes, const double* factors, double* b) {
-  if (block == 3) solve_chain<3>(nodes, factors, b);
-  if (block == 6) solve_chain<6>(nodes, factors, b);
+template <int B>
+void forward_any(int nodes, const double* factors, double* b, Front front) {
+  if (front == Front::both) forward_both<B>(nodes, factors, b);
+  if (front == Front::left) forward_front<B, Front::left>(nodes, factors, b);
+  if (front == Front::right) forward_front<B, Front::right>(nodes, factors, b);
+}
+
+template <int B>
+void backward_any(int nodes, const double* factors, double* b, Front front) {
+  if (front == Front::both) backward_both<B>(nodes, factors, b);
+  if (front == Front::left) backward_front<B, Front::left>(nodes, factors, b);
+  if (front == Front::right) backward_front<B, Front::right>(nodes, factors, b);
+}
+
+void factorize(int block, int nodes, const double* values, double* factors, Front front, PivotWatch& watch) {
+  block == 3 ? factorize_any<3>(nodes, values, factors, front, watch) : factorize_any<6>(nodes, values, factors, front, watch);
+}
+
+void factorize_middle(int block, int nodes, const double* values, double* factors, PivotWatch& watch) {
+  block == 3 ? factorize_middle_node<3>(nodes, values, factors, watch) : factorize_middle_node<6>(nodes, values, factors, watch);
+}
+
+void forward(int block, int nodes, const double* factors, double* b, Front front) {
+  block == 3 ? forward_any<3>(nodes, factors, b, front) : forward_any<6>(nodes, factors, b, front);
+}
+
+void solve_middle(int block, int nodes, const double* factors, double* b) {
+  block == 3 ? solve_middle_node<3>(nodes, factors, b) : solve_middle_node<6>(nodes, factors, b);
+}
+
+void backward(int block, int nodes, const double* factors, double* b, Front front) {
+  block == 3 ? backward_any<3>(nodes, factors, b, front) : backward_any<6>(nodes, factors, b, front);
 }
 
 }  // namespace

@@ -35,7 +35,11 @@ class ChainSolver final : public LinearSolver {
   FactorReport factorize(const BlockTridiagonal& matrix) override {
     assert(matrix.chains().size() == chains_.size());
     PivotWatch watch;
-    for (const Chain& c : chains_) kernel_.factorize(c.block, c.nodes, matrix.values().data() + c.first_value, factors_of(c), watch);
+    for (const Chain& c : chains_) {
+      const double* values = matrix.values().data() + c.first_value;
+      kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::both, watch);
+      kernel_.factorize_middle(c.block, c.nodes, values, factors_of(c), watch);
+    }
     const bool pivots_usable = watch.not_finite == 0.0 && usable_pivot(watch.smallest) && usable_pivot(watch.largest);
     fell_back_ = !(pivots_usable && watch.growth_squared <= growth_limit * growth_limit);
     if (fell_back_) return factorize_pivoted(matrix);
@@ -49,7 +53,12 @@ class ChainSolver final : public LinearSolver {
 
   void solve(std::span<double> b) override {
     if (fell_back_) return pivoted_->solve(b);
-    for (const Chain& c : chains_) kernel_.solve(c.block, c.nodes, factors_of(c), b.data() + c.first_dof);
+    for (const Chain& c : chains_) {
+      double* chain_b = b.data() + c.first_dof;
+      kernel_.forward(c.block, c.nodes, factors_of(c), chain_b, Front::both);
+      kernel_.solve_middle(c.block, c.nodes, factors_of(c), chain_b);
+      kernel_.backward(c.block, c.nodes, factors_of(c), chain_b, Front::both);
+    }
   }
 
   std::size_t bytes() const override { return sizeof(CacheLine) * factors_.size() + (pivoted_ ? pivoted_->bytes() : 0); }

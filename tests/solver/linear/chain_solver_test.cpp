@@ -1,7 +1,9 @@
 // What only the chain solver promises: when it exchanges rows, what it counts, what it costs in memory.
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "solver/linear/chain_kernel.hpp"
@@ -130,22 +132,60 @@ TEST(ChainSolver, SolvesAHundredThousandNodes) {
   EXPECT_LE(residual, backward_tolerance * (norm_a * norm_x + 1.0));
 }
 
+struct KernelAnswer {
+  std::vector<double> factors, x;
+  PivotWatch watch;
+};
+
+KernelAnswer answer_of(const ChainKernel& kernel, const BlockTridiagonal& a, const std::vector<double>& b, std::span<const Front> fronts) {
+  const Chain& c = a.chains()[0];
+  KernelAnswer answer{std::vector<double>(a.values().size()), b, {}};
+  double *factors = answer.factors.data(), *x = answer.x.data();
+  for (const Front front : fronts) kernel.factorize(c.block, c.nodes, a.values().data(), factors, front, answer.watch);
+  kernel.factorize_middle(c.block, c.nodes, a.values().data(), factors, answer.watch);
+  for (const Front front : fronts) kernel.forward(c.block, c.nodes, factors, x, front);
+  kernel.solve_middle(c.block, c.nodes, factors, x);
+  for (const Front front : fronts) kernel.backward(c.block, c.nodes, factors, x, front);
+  return answer;
+}
+
+constexpr std::array together = {Front::both};
+constexpr std::array one_by_one = {Front::right, Front::left};
+
 TEST(ChainKernels, OfAllInstructionSetsAgree) {
-  for (const Shape shape : {Shape{6, 40}, Shape{3, 40}, Shape{6, 1}, Shape{3, 1}}) {
-    const BlockTridiagonal a = test::random_matrix(Kind::positive_definite, {&shape, 1}, 2);
-    const std::vector<double> b = test::random_vector(a.dofs(), 3);
-    for (const ChainKernel* kernel : chain_kernels()) {
-      SCOPED_TRACE(kernel->instruction_set);
-      std::vector<double> factors(a.values().size()), x = b;
-      PivotWatch watch;
-      kernel->factorize(shape.block, shape.nodes, a.values().data(), factors.data(), watch);
-      kernel->solve(shape.block, shape.nodes, factors.data(), x.data());
-      EXPECT_LE(test::backward_error(test::dense(a), x, b), 5e-16);
-      EXPECT_EQ(watch.negative, 0);
-      EXPECT_GT(watch.smallest, 0.0);
-      EXPECT_LE(watch.growth_squared, 1.0 + 1e-12);  // the Frobenius norm cannot grow in a positive definite matrix
+  for (const int block : {3, 6})
+    for (const int nodes : {1, 2, 3, 4, 5, 40, 41}) {
+      const Shape shape{block, nodes};
+      const BlockTridiagonal a = test::random_matrix(Kind::positive_definite, {&shape, 1}, 2);
+      const std::vector<double> b = test::random_vector(a.dofs(), 3);
+      for (const ChainKernel* kernel : chain_kernels()) {
+        SCOPED_TRACE(fmt::format("{}, {} nodes of {}", kernel->instruction_set, nodes, block));
+        const KernelAnswer answer = answer_of(*kernel, a, b, together);
+        EXPECT_LE(test::backward_error(test::dense(a), answer.x, b), 5e-16);
+        EXPECT_EQ(answer.watch.negative, 0);
+        EXPECT_GT(answer.watch.smallest, 0.0);
+        EXPECT_EQ(answer.watch.not_finite, 0.0);
+        EXPECT_LE(answer.watch.growth_squared, 1.0 + 1e-12);  // the Frobenius norm cannot grow in a positive definite matrix
+      }
     }
-  }
+}
+
+TEST(ChainKernels, GiveTheSameBitsFrontByFront) {
+  for (const Kind kind : {Kind::positive_definite, Kind::unsymmetric})
+    for (const int block : {3, 6})
+      for (const int nodes : {1, 2, 3, 4, 5, 40, 41}) {
+        const Shape shape{block, nodes};
+        const BlockTridiagonal a = test::random_matrix(kind, {&shape, 1}, 4);
+        const std::vector<double> b = test::random_vector(a.dofs(), 5);
+        for (const ChainKernel* kernel : chain_kernels()) {
+          SCOPED_TRACE(fmt::format("{}, {} nodes of {}", kernel->instruction_set, nodes, block));
+          const KernelAnswer at_once = answer_of(*kernel, a, b, together), in_turn = answer_of(*kernel, a, b, one_by_one);
+          EXPECT_EQ(at_once.factors, in_turn.factors);
+          EXPECT_EQ(at_once.x, in_turn.x);
+          EXPECT_EQ(at_once.watch.negative, in_turn.watch.negative);
+          EXPECT_EQ(at_once.watch.growth_squared, in_turn.watch.growth_squared);
+        }
+      }
 }
 
 }  // namespace
