@@ -7,7 +7,7 @@
 
 namespace hawser {
 
-std::unique_ptr<LinearSolver> make_chain_solver();
+std::unique_ptr<LinearSolver> make_chain_solver(int threads);
 std::unique_ptr<LinearSolver> make_band_solver();
 std::unique_ptr<LinearSolver> make_cholmod_solver();
 std::unique_ptr<LinearSolver> make_umfpack_solver();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <string_view>
@@ -12,6 +13,14 @@
 namespace hawser {
 
 const ChainKernel baseline_chain_kernel{factorize, factorize_middle, forward, solve_middle, backward, "base"};
+
+void PivotWatch::add(const PivotWatch& other) {
+  smallest = std::min(smallest, other.smallest);
+  largest = std::max(largest, other.largest);
+  growth_squared = std::max(growth_squared, other.growth_squared);
+  not_finite += other.not_finite;
+  negative += other.negative;
+}
 
 std::span<const ChainKernel* const> chain_kernels() {
 #ifdef __x86_64__

@@ -28,6 +28,8 @@ struct PivotWatch {
   double growth_squared = 0.0;  // largest over the nodes: (Frobenius norm of the worked [L_k U_k, Y_k] over that of [D_k, U(k, k+1)])^2
   double not_finite = 0.0;      // NaN as soon as a pivot is not finite, else zero
   int negative = 0;             // pivots
+
+  void add(const PivotWatch& other);
 };
 
 enum class Front { left, right, both };

@@ -18,8 +18,13 @@ namespace {
 
 constexpr double growth_limit = 100.0;  // 1e-14 / eps
 
+// A parallel region costs about what a thousand nodes take to factorize.
+constexpr int nodes_to_share_factorization = 4000, nodes_to_share_solve = 10000;
+
 class ChainSolver final : public LinearSolver {
  public:
+  explicit ChainSolver(int threads) : threads_(threads) {}
+
   std::string_view name() const override { return "chain"; }
   bool takes_unsymmetric() const override { return true; }
 
@@ -35,11 +40,7 @@ class ChainSolver final : public LinearSolver {
   FactorReport factorize(const BlockTridiagonal& matrix) override {
     assert(matrix.chains().size() == chains_.size());
     PivotWatch watch;
-    for (const Chain& c : chains_) {
-      const double* values = matrix.values().data() + c.first_value;
-      kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::both, watch);
-      kernel_.factorize_middle(c.block, c.nodes, values, factors_of(c), watch);
-    }
+    for (const Chain& c : chains_) factorize(c, matrix.values().data() + c.first_value, watch);
     const bool pivots_usable = watch.not_finite == 0.0 && usable_pivot(watch.smallest) && usable_pivot(watch.largest);
     fell_back_ = !(pivots_usable && watch.growth_squared <= growth_limit * growth_limit);
     if (fell_back_) return factorize_pivoted(matrix);
@@ -53,12 +54,7 @@ class ChainSolver final : public LinearSolver {
 
   void solve(std::span<double> b) override {
     if (fell_back_) return pivoted_->solve(b);
-    for (const Chain& c : chains_) {
-      double* chain_b = b.data() + c.first_dof;
-      kernel_.forward(c.block, c.nodes, factors_of(c), chain_b, Front::both);
-      kernel_.solve_middle(c.block, c.nodes, factors_of(c), chain_b);
-      kernel_.backward(c.block, c.nodes, factors_of(c), chain_b, Front::both);
-    }
+    for (const Chain& c : chains_) solve(c, b.data() + c.first_dof);
   }
 
   std::size_t bytes() const override { return sizeof(CacheLine) * factors_.size() + (pivoted_ ? pivoted_->bytes() : 0); }
@@ -67,6 +63,41 @@ class ChainSolver final : public LinearSolver {
   struct alignas(64) CacheLine {
     double values[8];
   };
+
+  // Two threads take a front each. The numbers are those of one thread.
+  void factorize(const Chain& c, const double* values, PivotWatch& watch) {
+    if (threads_ > 1 && c.nodes >= nodes_to_share_factorization) {
+      PivotWatch watch_right;
+#pragma omp parallel sections num_threads(2)
+      {
+        kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::left, watch);
+#pragma omp section
+        kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::right, watch_right);
+      }
+      watch.add(watch_right);
+    } else {
+      kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::both, watch);
+    }
+    kernel_.factorize_middle(c.block, c.nodes, values, factors_of(c), watch);
+  }
+
+  void solve(const Chain& c, double* b) {
+    const auto fronts = [&](auto substitute) {
+      if (threads_ > 1 && c.nodes >= nodes_to_share_solve) {
+#pragma omp parallel sections num_threads(2)
+        {
+          substitute(c.block, c.nodes, factors_of(c), b, Front::left);
+#pragma omp section
+          substitute(c.block, c.nodes, factors_of(c), b, Front::right);
+        }
+      } else {
+        substitute(c.block, c.nodes, factors_of(c), b, Front::both);
+      }
+    };
+    fronts(kernel_.forward);
+    kernel_.solve_middle(c.block, c.nodes, factors_of(c), b);
+    fronts(kernel_.backward);
+  }
 
   double* factors_of(const Chain& c) { return factors_.data()->values + c.first_value; }
 
@@ -81,6 +112,7 @@ class ChainSolver final : public LinearSolver {
     return report;
   }
 
+  const int threads_;
   const ChainKernel& kernel_ = *chain_kernels().front();
   std::vector<Chain> chains_;
   std::vector<CacheLine> factors_;
@@ -90,6 +122,6 @@ class ChainSolver final : public LinearSolver {
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_chain_solver() { return std::make_unique<ChainSolver>(); }
+std::unique_ptr<LinearSolver> make_chain_solver(int threads) { return std::make_unique<ChainSolver>(threads); }
 
 }  // namespace hawser

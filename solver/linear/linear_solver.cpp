@@ -14,13 +14,21 @@ namespace {
 struct Backend {
   LinearSolverKind kind;
   std::string_view name;
-  std::unique_ptr<LinearSolver> (*make)();
+  std::unique_ptr<LinearSolver> (*make)(int threads);
 };
 
+template <std::unique_ptr<LinearSolver> (*make)()>
+std::unique_ptr<LinearSolver> on_one_thread(int) {
+  return make();
+}
+
 constexpr std::array backends = {
-    Backend{LinearSolverKind::automatic, "auto", make_chain_solver},    Backend{LinearSolverKind::chain, "chain", make_chain_solver},
-    Backend{LinearSolverKind::band, "band", make_band_solver},          Backend{LinearSolverKind::cholmod, "cholmod", make_cholmod_solver},
-    Backend{LinearSolverKind::umfpack, "umfpack", make_umfpack_solver}, Backend{LinearSolverKind::klu, "klu", make_klu_solver},
+    Backend{LinearSolverKind::automatic, "auto", make_chain_solver},
+    Backend{LinearSolverKind::chain, "chain", make_chain_solver},
+    Backend{LinearSolverKind::band, "band", on_one_thread<make_band_solver>},
+    Backend{LinearSolverKind::cholmod, "cholmod", on_one_thread<make_cholmod_solver>},
+    Backend{LinearSolverKind::umfpack, "umfpack", on_one_thread<make_umfpack_solver>},
+    Backend{LinearSolverKind::klu, "klu", on_one_thread<make_klu_solver>},
 };
 
 const Backend& backend_of(LinearSolverKind kind) {
@@ -31,7 +39,7 @@ const Backend& backend_of(LinearSolverKind kind) {
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind) { return backend_of(kind).make(); }
+std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind, int threads) { return backend_of(kind).make(threads); }
 
 LinearSolverKind linear_solver_kind(std::string_view name) {
   for (const Backend& b : backends)

@@ -52,8 +52,9 @@ class LinearSolver {
   virtual std::size_t bytes() const = 0;
 };
 
-/// The only place that names the backends. `automatic` is the chain solver.
-std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind);
+/// The only place that names the backends. `automatic` is the chain solver, the one that uses more than one thread (two, on long chains): the
+/// results are the same bits.
+std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind, int threads = 1);
 
 /// "auto", "chain", "band", "cholmod", "umfpack", "klu"; throws std::invalid_argument for any other name.
 LinearSolverKind linear_solver_kind(std::string_view name);

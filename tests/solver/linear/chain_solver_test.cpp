@@ -132,6 +132,25 @@ TEST(ChainSolver, SolvesAHundredThousandNodes) {
   EXPECT_LE(residual, backward_tolerance * (norm_a * norm_x + 1.0));
 }
 
+TEST(ChainSolver, GivesTheSameBitsWithTwoThreads) {
+  for (const Shape shape : {Shape{6, 20001}, Shape{3, 20000}}) {
+    const BlockTridiagonal a = test::random_matrix(Kind::positive_definite, {&shape, 1}, 6);
+    const std::vector<double> b = test::random_vector(a.dofs(), 7);
+    std::vector<double> x[2] = {b, b};
+    FactorReport report[2];
+    for (const int threads : {1, 2}) {
+      const auto solver = make_linear_solver(LinearSolverKind::chain, threads);
+      solver->analyze(a);
+      report[threads - 1] = solver->factorize(a);
+      solver->solve(x[threads - 1]);
+    }
+    EXPECT_EQ(x[0], x[1]);
+    EXPECT_EQ(report[0].negative_pivots, report[1].negative_pivots);
+    EXPECT_EQ(report[0].smallest_pivot, report[1].smallest_pivot);
+    EXPECT_EQ(report[0].largest_pivot, report[1].largest_pivot);
+  }
+}
+
 struct KernelAnswer {
   std::vector<double> factors, x;
   PivotWatch watch;
