@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "assembly/aligned.hpp"
+
 namespace hawser {
 
 struct Chain {
@@ -63,7 +65,7 @@ class BlockTridiagonal {
   }
 
   std::vector<Chain> chains_;
-  std::vector<double> values_;
+  AlignedVector<double> values_;
   std::size_t dofs_ = 0;
 };
 

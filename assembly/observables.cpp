@@ -17,32 +17,31 @@ Vec3 to_vec(const V3<double>& x) { return {x[0], x[1], x[2]}; }
 /// A nodal quantity inside one element, at xi in [0, 1].
 class Interpolation {
  public:
-  Interpolation(Family family, double length, const Nodal<double>& n)
-      : bar_(family == Family::bar), power_{1.0 / (length * length), 1.0 / length, 1.0, length} {
-    y_[0] = to_vec(n.r0) + to_vec(n.r1);
-    y_[1] = to_vec(n.r1) - to_vec(n.r0);
-    y_[2] = to_vec(n.s0) + to_vec(n.s1);
-    y_[3] = to_vec(n.s1) - to_vec(n.s0);
+  Interpolation(Family family, double length, const Nodal<double>& n) : bar_(family == Family::bar), length_(length) {
+    if (bar_)
+      to_modes<StraightShape>(n, 1.0 / length, y_);
+    else
+      to_modes<HermiteShape>(n, 1.0 / length, y_);
   }
 
-  Vec3 value(double xi) const { return sum(Channel::r, xi); }
+  Vec3 value(double xi) const { return to_vec(y_[0]) + length_ * sum(Channel::r, xi); }
   Vec3 slope(double xi) const { return sum(Channel::a, xi); }
-  Vec3 second(double xi) const { return sum(Channel::b, xi); }
+  Vec3 second(double xi) const { return sum(Channel::b, xi) / length_; }
 
  private:
   Vec3 sum(Channel channel, double xi) const { return bar_ ? sum_of<StraightShape>(channel, xi - 0.5) : sum_of<HermiteShape>(channel, xi - 0.5); }
 
+  /// Without the mean.
   template <class Shape>
   Vec3 sum_of(Channel channel, double eta) const {
-    Vec3 x = Vec3::Zero();
-    for (int j = channel == Channel::r ? 0 : 1; j < Shape::modes; ++j)
-      x += Shape::coefficient(channel, j, eta) * power_[length_power(channel, j) + 2] * y_[j];
-    return x;
+    V3<double> x = zero_vector<double>();
+    for (int j = 1; j < Shape::modes; ++j) add_scaled(x, Shape::coefficient(channel, j, eta), y_[j]);
+    return to_vec(x);
   }
 
   bool bar_;
-  double power_[4];  // l^-2 .. l
-  Vec3 y_[4];
+  double length_;
+  V3<double> y_[4];
 };
 
 struct ElementView {
@@ -239,7 +238,7 @@ void add_element_energies(const Model& model, const State& state, int line, int 
     const double weight = bar ? (q == 1 ? 1.0 : 0.0) : (q == 1 ? HermiteShape::middle_weight : HermiteShape::end_weight);
     sum.axial += 0.5 * p.EA[element] * l * weight * strain * strain;
     if (model.lines[line].family != Family::beam) continue;
-    const double kappa = material_curvature(e, gauss_xi[q]);
+    const double kappa = material_curvature(e, 0.5 + gauss_eta[q]);
     sum.bending += 0.5 * p.EI[element] * l * gauss_weight[q] * kappa * kappa;
   }
 }

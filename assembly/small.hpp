@@ -43,35 +43,63 @@ struct M3 {
 };
 
 template <class S>
-HAWSER_INLINE M3<S> zero_matrix() {
-  const S o(0.0);
-  return {{o, o, o, o, o, o, o, o, o}};
-}
-template <class S>
 HAWSER_INLINE V3<S> zero_vector() {
   const S o(0.0);
   return {{o, o, o}};
 }
 
-/// m += f a b^T.
+/// Symmetric matrix of three: the upper triangle by columns.
 template <class S>
-HAWSER_INLINE void add_outer(M3<S>& m, const S& f, const V3<S>& a, const V3<S>& b) {
-  for (int j = 0; j < 3; ++j) {
-    const S fb = f * b[j];
-    for (int i = 0; i < 3; ++i) m(i, j) = m(i, j) + fb * a[i];
-  }
+struct Symmetric3 {
+  S m[6];
+};
+/// Where component i + 3 j of the whole matrix is kept.
+inline constexpr int symmetric_index[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5};
+
+// Written out, without loops: arrays that a loop touches stay in memory until the loop is unrolled, too late for registers.
+
+/// m += a b^T.
+template <class S>
+HAWSER_INLINE void add_outer(M3<S>& m, const V3<S>& a, const V3<S>& b) {
+  m.m[0] = m.m[0] + b[0] * a[0];
+  m.m[1] = m.m[1] + b[0] * a[1];
+  m.m[2] = m.m[2] + b[0] * a[2];
+  m.m[3] = m.m[3] + b[1] * a[0];
+  m.m[4] = m.m[4] + b[1] * a[1];
+  m.m[5] = m.m[5] + b[1] * a[2];
+  m.m[6] = m.m[6] + b[2] * a[0];
+  m.m[7] = m.m[7] + b[2] * a[1];
+  m.m[8] = m.m[8] + b[2] * a[2];
+}
+/// m += a b^T, which the caller knows to be symmetric alone or with the dyads added beside it.
+template <class S>
+HAWSER_INLINE void add_outer(Symmetric3<S>& m, const V3<S>& a, const V3<S>& b) {
+  m.m[0] = m.m[0] + b[0] * a[0];
+  m.m[1] = m.m[1] + b[1] * a[0];
+  m.m[2] = m.m[2] + b[1] * a[1];
+  m.m[3] = m.m[3] + b[2] * a[0];
+  m.m[4] = m.m[4] + b[2] * a[1];
+  m.m[5] = m.m[5] + b[2] * a[2];
 }
 
-/// m += f I.
+/// f I.
 template <class S>
-HAWSER_INLINE void add_identity(M3<S>& m, const S& f) {
-  for (int i = 0; i < 3; ++i) m(i, i) = m(i, i) + f;
+HAWSER_INLINE M3<S> isotropic_matrix(const S& f) {
+  const S o(0.0);
+  return {{f, o, o, o, f, o, o, o, f}};
+}
+template <class S>
+HAWSER_INLINE Symmetric3<S> isotropic_symmetric(const S& f) {
+  const S o(0.0);
+  return {{f, o, f, o, o, f}};
 }
 
 /// y += f x.
 template <class S, class T>
 HAWSER_INLINE void add_scaled(V3<S>& y, const T& f, const V3<S>& x) {
-  for (int i = 0; i < 3; ++i) y[i] = y[i] + f * x[i];
+  y[0] = y[0] + f * x[0];
+  y[1] = y[1] + f * x[1];
+  y[2] = y[2] + f * x[2];
 }
 
 // Branches are selects, so that one formula serves doubles and packs (architecture rule 5).

@@ -25,18 +25,16 @@ struct PanelState {
   }
 
   template <int W>
-  HAWSER_INLINE Nodal<Pack<W>> nodal(int k, int i) const {
+  HAWSER_INLINE V3<Pack<W>> vector(int k, int row, int i) const {
     using S = Pack<W>;
-    Nodal<S> n;
-    for (int c = 0; c < 3; ++c) {
-      n.r0[c] = S::load(&x[k][c][i]);
-      n.r1[c] = S::load(&x[k][c][i + 1]);
-      if constexpr (B == 6) {
-        n.s0[c] = S::load(&x[k][c + 3][i]);
-        n.s1[c] = S::load(&x[k][c + 3][i + 1]);
-      }
-    }
-    return n;
+    return {{S::load(&x[k][row][i]), S::load(&x[k][row + 1][i]), S::load(&x[k][row + 2][i])}};
+  }
+  template <int W>
+  HAWSER_INLINE Nodal<Pack<W>> nodal(int k, int i) const {
+    if constexpr (B == 6)
+      return {vector<W>(k, 0, i), vector<W>(k, 3, i), vector<W>(k, 0, i + 1), vector<W>(k, 3, i + 1)};
+    else
+      return {vector<W>(k, 0, i), {}, vector<W>(k, 0, i + 1), {}};
   }
 };
 
@@ -65,7 +63,7 @@ struct NodalAxial {
       e.axial_damping = S::load(line.node_property[1] + first + i);
       e.least_tension = S::load(line.node_property[2] + first + i);
       M3<S> block;
-      axial_at_node<want>(slope, rate, e, S(1.0), line.weights, force, block);
+      Axial::evaluate<want>(slope, rate, e, line.weights, force, block);
       for (int c = 0; c < 3; ++c) force[c].store(&f[c][i]);
       if constexpr (want == Want::tangent)
         for (int c = 0; c < 9; ++c) block.m[c].store(&K[c][i]);
@@ -87,34 +85,41 @@ constexpr int block_row(int i, int j, int c) {
 
 /// The nodal values D, U, L of W nodes, lanes = nodes; D gathers both elements of a node and its axial term.
 template <class Family, int W>
-HAWSER_INLINE void fill_rows(const Integrand<Family, Pack<W>>& in, const Properties<Pack<W>>& e, const Weights& w, const NodalAxial& axial, int first,
+HAWSER_INLINE void fill_rows(const Integrand<Family, Pack<W>>& in, const NodalAxial& axial, int first,
                              Running<3 * Family::Shape::node_vectors, W>& before, Pack<W>* rows) {
   using S = Pack<W>;
-  constexpr int B = 3 * Family::Shape::node_vectors;
+  constexpr int n = Family::Shape::node_vectors, B = 3 * n;
   nodal_tangent(
-      in, e, w, [&](int i, int j, int c, const S& k00, const S& k01, const S& k10, const S& k11) __attribute__((always_inline)) {
-        const int row = block_row<B>(i, j, c);
-        S diagonal = k00 + shifted(before.K[row], k11);
-        if (i == 1 && j == 1) diagonal = diagonal + S::load(&axial.K[c][first]);
-        before.K[row] = k11;
-        rows[row] = diagonal;
-        rows[B * B + row] = k01;
-        rows[2 * B * B + row] = k10;
+      in, [&](int c, const S(&K)[2 * n][2 * n]) __attribute__((always_inline)) {
+        const int corner = c % 3 + B * (c / 3);
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < n; ++i) {
+            const int row = corner + 3 * i + 3 * B * j;
+            const S right = K[n + i][n + j];
+            S diagonal = K[i][j] + shifted(before.K[row], right);
+            if (i == 1 && j == 1) diagonal = diagonal + S::load(&axial.K[c][first]);
+            before.K[row] = right;
+            rows[row] = diagonal;
+            rows[B * B + row] = K[i][n + j];
+            rows[2 * B * B + row] = K[n + i][j];
+          }
       });
 }
 
-/// Writes `count` rows held lane by lane as `lanes` contiguous runs of `count` doubles.
+/// Writes `count` rows held lane by lane as `lanes` contiguous runs of `count` doubles: four rows at a time, which become 32 bytes of a
+/// node. Whole cache lines would straddle the nodes, whose blocks are an odd number of half lines long.
 template <int count, int W>
 HAWSER_INLINE void store_transposed(const Pack<W>* rows, double* to, int lanes) {
-  constexpr int whole = count / W * W;
+  constexpr int tile = W < 4 ? W : 4, whole = count / tile * tile;
   if (lanes == W) {
 #pragma GCC unroll 1
-    for (int t = 0; t < whole; t += W) {
-      Pack<W> tile[W];
-      for (int k = 0; k < W; ++k) tile[k] = rows[t + k];
-      transpose<W>(tile);
-      for (int k = 0; k < W; ++k) tile[k].store(to + static_cast<long>(count) * k + t);
-    }
+    for (int t = 0; t < whole; t += tile)
+      static_for<W / tile>([&](auto part) __attribute__((always_inline)) {
+        Pack<tile> of[tile];
+        for (int k = 0; k < tile; ++k) of[k] = Pack<tile>::load(reinterpret_cast<const double*>(&rows[t + k]) + tile * part);
+        transpose<tile>(of);
+        for (int k = 0; k < tile; ++k) of[k].store(to + static_cast<long>(count) * (tile * part + k) + t);
+      });
   }
   for (int t = lanes == W ? whole : 0; t < count; ++t)
     for (int k = 0; k < lanes; ++k) to[static_cast<long>(count) * k + t] = rows[t].v[k];
@@ -165,16 +170,16 @@ void sweep_panel(const SweepLine& line, int panel) {
   int lanes = W;
   for (int e = 0; e < count; e += W) {
     lanes = count - e < W ? count - e : W;
-    const ElementState<S> x{state.template nodal<W>(0, e), state.template nodal<W>(1, e), state.template nodal<W>(2, e)};
     const Properties<S> properties = load_properties<W>(line, first + e);
-    Integrand<Family, S> in(properties.length, S(1.0) / properties.length);
+    const ElementState<S> x{state.template nodal<W>(0, e), state.template nodal<W>(1, e), state.template nodal<W>(2, e)};
+    Integrand<Family, S> in;
     integrate<Family, want>(x, properties, line.weights, line.current, in);
     V3<S> f[2 * Shape::node_vectors];
-    nodal_force(in, x, properties, f);
+    nodal_force(in, f);
     write_residual<Shape>(f, axial, e, lanes, before, line.r + static_cast<long>(B) * (first + e));
     if constexpr (want == Want::tangent) {
       S rows[3 * B * B];
-      fill_rows(in, properties, line.weights, axial, e, before, rows);
+      fill_rows(in, axial, e, before, rows);
       store_transposed<3 * B * B, W>(rows, line.blocks + 3L * B * B * (first + e), lanes);
     }
   }

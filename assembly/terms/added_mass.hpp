@@ -1,7 +1,7 @@
 // Added mass, Morison, per unstretched length in a steady current (theory 5.2).
 //
 //   f = m_n P r_ddot + m_t t t^T r_ddot,   m = rho C_a pi d^2/4
-//   d(P q)/da = -1/lambda [(t.q) P + t (P q)^T],   d(t t^T q)/da = +1/lambda [...]
+//   d(P q)/da = -1/|a| [(t.q) P + t (P q)^T],   d(t t^T q)/da = +1/|a| [...]
 // Morison's usual simplification: no terms from the time derivative of t. Points: three Gauss points.
 #pragma once
 
@@ -11,18 +11,19 @@ namespace hawser {
 
 struct AddedMass {
   template <Want want, class S>
-  HAWSER_INLINE static void add(const Point<S>& p, const Properties<S>& e, const Weights& w, Response<S>& out) {
+  HAWSER_INLINE static void add(const Point<S>& p, const Properties<S>& e, const Weights& w, Transverse<S>& out) {
     const S along = dot(p.t, p.acceleration);
-    const V3<S> normal = p.acceleration - along * p.t;
-    add_scaled(out.Fr, e.added_normal, normal);
-    add_scaled(out.Fr, e.added_tangential * along, p.t);
+    const S difference = e.added_tangential - e.added_normal;
+    out.F_q = out.F_q + e.added_normal;
+    out.F_t = out.F_t + difference * along;
     if constexpr (want == Want::tangent) {
-      const S difference = e.added_tangential - e.added_normal;
-      add_identity(out.Jrr, S(w.m) * e.added_normal);
-      add_outer(out.Jrr, S(w.m) * difference, p.t, p.t);
-      const S f = S(w.k) * p.inverse_lambda * difference;
-      add_identity(out.Jra, f * along);
-      add_outer(out.Jra, f, p.t, normal - along * p.t);
+      out.rr = out.rr + S(w.m) * e.added_normal;
+      out.rr_tt = out.rr_tt + S(w.m) * difference;
+      // (P q)^T - (t.q) t^T = q^T - 2 (t.q) t^T
+      const S f = S(w.k) * p.inverse_length * difference;
+      out.ra = out.ra + f * along;
+      out.ra_q = out.ra_q + f;
+      out.ra_t = out.ra_t - S(2.0) * f * along;
     }
   }
 };

@@ -121,14 +121,13 @@ TEST(Bending, ResidualIsGradientOfTheEnergyWithTheMaterialCurvature) {
     const auto x = state_of<AD>(c, [](double v, int i) { return AD::variable(v, i); });
     const double l = c.properties[0], EI = c.properties[2];
     V3<AD> y[4];
-    to_modes<HermiteShape>(x.q, y);
+    to_modes<HermiteShape>(x.q, AD(1.0 / l), y);
     AD energy(0.0);
     for (int q = 0; q < 3; ++q) {
       V3<AD> a = zero_vector<AD>(), b = zero_vector<AD>();
-      const Coefficients<HermiteShape, AD> at(gauss_xi[q] - 0.5, AD(l), AD(1.0 / l));
       for (int j = 1; j < 4; ++j) {
-        add_scaled(a, at[Channel::a][j], y[j]);
-        add_scaled(b, at[Channel::b][j], y[j]);
+        add_scaled(a, AD(HermiteShape::coefficient(Channel::a, j, gauss_eta[q])), y[j]);
+        add_scaled(b, AD(HermiteShape::coefficient(Channel::b, j, gauss_eta[q]) / l), y[j]);
       }
       const AD cross2 = dot(a, a) * dot(b, b) - dot(a, b) * dot(a, b);  // |a x b|^2
       energy = energy + AD(0.5 * EI * l * gauss_weight[q]) * cross2 / (dot(a, a) * dot(a, a));
