@@ -13,6 +13,7 @@
 #include "assembly/assembler.hpp"
 #include "assembly/observables.hpp"
 #include "solver/statics.hpp"
+#include "tests/support/threads.hpp"
 
 namespace hawser::test {
 
@@ -20,7 +21,7 @@ namespace hawser::test {
 struct StaticSolution {
   explicit StaticSolution(const Scene& scene, StaticStart start = StaticStart::catenary, double tolerance = 0.0)
       : model(std::make_unique<Model>(build_model(scene))) {
-    const Assembler assembler(*model);
+    const Assembler assembler(*model, threads());
     StaticOptions options;
     options.start = start;
     if (start == StaticStart::given) state = static_start(*model, StaticStart::catenary, scene);

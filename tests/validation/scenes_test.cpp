@@ -9,6 +9,7 @@
 #include "assembly/observables.hpp"
 #include "solver/app/scene_reader.hpp"
 #include "solver/simulate.hpp"
+#include "tests/support/threads.hpp"
 
 namespace hawser {
 namespace {
@@ -34,7 +35,7 @@ struct Outcome {
 Outcome run_scene(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const Scene scene = read_scene(std::string(HAWSER_SOURCE_DIR) + "/data/scenes/" + name + ".toml", overrides);
   const Model model = build_model(scene);
-  const Assembler assembler(model);
+  const Assembler assembler(model, test::threads());
   Outcome outcome;
   State state = model.make_state();
   outcome.equilibrium = solve_static(assembler, StaticOptions{}, state);
