@@ -15,7 +15,7 @@
 #include "assembly/terms/axial.hpp"
 #include "assembly/terms/bending.hpp"
 #include "assembly/terms/drag.hpp"
-#include "assembly/terms/inertia.hpp"
+#include "assembly/terms/inertia_and_weight.hpp"
 
 namespace hawser {
 
@@ -93,8 +93,8 @@ struct FamilyOf<ShapeOf, Elastic<ElasticTerms...>, Loads<LoadTerms...>> {
   }
 };
 
-using Dry = Loads<Inertia>;
-using Wet = Loads<Inertia, Drag, AddedMass>;
+using Dry = Loads<InertiaAndWeight>;
+using Wet = Loads<InertiaAndWeight, Drag, AddedMass>;
 using BarDry = FamilyOf<StraightShape, Elastic<>, Dry>;
 using BarWet = FamilyOf<StraightShape, Elastic<>, Wet>;
 using CableDry = FamilyOf<HermiteShape, Elastic<>, Dry>;

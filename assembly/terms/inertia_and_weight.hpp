@@ -8,7 +8,7 @@
 
 namespace hawser {
 
-struct Inertia {
+struct InertiaAndWeight {
   template <Want want, class S>
   HAWSER_INLINE static void add(const Point<S>&, const Properties<S>& e, const Weights& w, Transverse<S>& out) {
     out.F_q = out.F_q + e.mass;
