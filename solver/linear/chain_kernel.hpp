@@ -8,8 +8,8 @@
 // unit roundoff times the growth of the entries (Golub & Van Loan, Matrix Computations, 4th ed., sections 3.3 and 4.5). The textbook form
 // W_k = D_k^-1 U(k, k+1) solves with each D_k by itself and loses as many digits as D_k is ill conditioned.
 //
-// The fronts do not depend on each other. One core takes them in turn, so that one works while the other waits for its pivots; two threads take
-// one each. The numbers are the same bits either way.
+// The fronts do not depend on each other. One core can take them in turn, so that one works while the other waits; two threads take one each.
+// The numbers are the same bits either way.
 //
 // Values are laid out as in BlockTridiagonal: D, U, L of a node, column-major. Factors take the same room, block for block: L_k\U_k in the place
 // of D_k, Y_k and X_k in the places of the couplings they come from; the order within a block is the kernel's own. The columns of U_k are

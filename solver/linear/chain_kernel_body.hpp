@@ -224,11 +224,14 @@ void factorize_middle_node(int nodes, const double* values, double* factors, Piv
   for (int i = 0; i < B; ++i) watch.not_finite += 0.0 * middle[Panel<B, 2>::place(i, i)];  // a NaN anywhere before has come to here
 }
 
+// With 6 unknowns a node one front already fills the processor's window of instructions: both at once are no faster.
 template <int B>
 void factorize_any(int nodes, const double* values, double* factors, Front front, PivotWatch& watch) {
-  if (front == Front::both) factorize_both<B>(nodes, values, factors, watch);
-  if (front == Front::left) factorize_front<B, Front::left>(nodes, values, factors, watch);
-  if (front == Front::right) factorize_front<B, Front::right>(nodes, values, factors, watch);
+  if constexpr (B == 3) {
+    if (front == Front::both) return factorize_both<B>(nodes, values, factors, watch);
+  }
+  if (front != Front::right) factorize_front<B, Front::left>(nodes, values, factors, watch);
+  if (front != Front::left) factorize_front<B, Front::right>(nodes, values, factors, watch);
 }
 
 template <int B>
