@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bench/fixture.hpp"
+#include "bench/flops.hpp"
 
 namespace {
 
@@ -26,6 +27,7 @@ void assembly(benchmark::State& state, ModelChoice family, bool wet, bool with_t
   }
   state.counters["s_per_element"] = per_element(elements);
   state.counters["bytes_per_element"] = line.bytes(with_tangent) / elements;
+  state.counters["flops_per_element"] = assembly_flops(family, wet, with_tangent);
 }
 
 const bool registered = [] {

@@ -5,12 +5,14 @@
 //
 // The matrix is the assembled tangent of a time step (fixture.hpp): a beam with drag, added mass and inertia, unsymmetric
 // because of the drag. CHOLMOD takes its symmetric part. A backend's copy of the blocks into its own form is counted.
-// Counters beside every time: s_per_element, bytes_per_element of the factors, and backward_error.
+// Counters beside every time: s_per_element, bytes_per_element of the factors, and backward_error; chain: operations and
+// bytes that must move (flops.hpp) for the roofline.
 #include <algorithm>
 #include <array>
 #include <string>
 
 #include "bench/fixture.hpp"
+#include "bench/flops.hpp"
 #include "bench/solvers.hpp"
 
 namespace {
@@ -43,6 +45,12 @@ void linear(benchmark::State& state, const NamedSolver& named, Task task) {
   solver->solve(x);
   state.counters["s_per_element"] = per_element(elements);
   state.counters["bytes_per_element"] = static_cast<double>(solver->bytes()) / elements;
+  if (named.name == "chain" && task != Task::both) {
+    const double b = matrix.chains().front().block, factors = static_cast<double>(solver->bytes()), vectors = 8.0 * b * elements;
+    const double moved = task == Task::factorize ? 8.0 * static_cast<double>(matrix.values().size()) + factors : factors + 4.0 * vectors;
+    state.counters["flops_per_element"] = task == Task::factorize ? factorize_flops(b) : solve_flops(b);
+    state.counters["moved_per_element"] = moved / elements;
+  }
   state.counters["backward_error"] = backward_error(matrix, x, line.rhs);
   state.counters["fell_back"] = report.fell_back;
 }

@@ -145,7 +145,7 @@ def points(r):
         for n in r.sizes(name):
             run = r.runs[f'{name}/{n}']
             if 'flops_per_element' in run:
-                work, moved = run['flops_per_element'], run['moved_per_element']
+                work, moved = run['flops_per_element'], run.get('moved_per_element', run['bytes_per_element'])
                 yield stage, n, work, moved, work / moved, work / run['s_per_element']
 
 

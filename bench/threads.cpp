@@ -19,7 +19,8 @@ struct Iteration {
   MovingLine line;
   std::unique_ptr<LinearSolver> solver;
 
-  Iteration(int elements, int threads) : line(ModelChoice::beam, elements, true, threads), solver(make_linear_solver(LinearSolverKind::chain)) {
+  Iteration(int elements, int threads)
+      : line(ModelChoice::beam, elements, true, threads), solver(make_linear_solver(LinearSolverKind::chain, threads)) {
     solver->analyze(line.tangent.chain);
     full();
   }
