@@ -211,7 +211,7 @@ void Assembler::tangent(const State& state, const TangentWeights& weights, const
   }
   add_spread_loads(model_, state, r);
   add_bodies(model_, state, r, weights, tangent.chain);
-  add_seabed(model_, state, r, weights, tangent.chain);
+  add_seabed(model_, state, r, weights, floor.gauss_newton, tangent.chain);
   for (const Support& support : model_.supports) constrain(model_, support, tangent.chain);
 }
 

@@ -113,7 +113,7 @@ Element evaluate_element(const Model& model, const State& state, int line, int e
   evaluate_family<Want::tangent>(model.lines[line].family, model.wet, x, element_properties(model, element, least_tension), w, current_table(model),
                                  out);
   subtract_spread_loads(model, state, line, element, out.f);
-  add_contact(model, line, element, x, weights, out.f, &out.K);
+  add_contact(model, line, element, x, weights, gauss_newton, out.f, &out.K);
   return out;
 }
 
@@ -123,7 +123,7 @@ Vector12 element_force(const Model& model, const State& state, int line, int ele
   evaluate_family<Want::force>(model.lines[line].family, model.wet, x, element_properties(model, element, no_floor), Weights{1.0, 0.0, 0.0, false},
                                current_table(model), out);
   subtract_spread_loads(model, state, line, element, out.f);
-  add_contact(model, line, element, x, TangentWeights{}, out.f, nullptr);
+  add_contact(model, line, element, x, TangentWeights{}, false, out.f, nullptr);
   return out.f;
 }
 

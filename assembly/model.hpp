@@ -95,14 +95,15 @@ struct Current {
   double fastest() const;  // m/s, largest horizontal speed over the rows
 };
 
-/// The seabed and, for its static friction, where every node was laid: unstrained on the bed from the grounded end of its line,
-/// in plan towards the other end.
+/// The seabed, and where the nodes of every line with an end on it were laid: unstrained on the bed from that end, in plan towards the
+/// other end. Static friction counts from there.
+enum class Laid : char { nowhere, from_start, from_end };
 struct Seabed {
   SeabedSurface surface;
   SeabedLaw law;
-  std::vector<Vec3> lay;         // m, of every node
-  std::vector<char> laid;        // of every line: an end is on the bed and the bed has friction
-  bool frozen_pressure = false;  // friction's tangent leaves out how the normal force and the direction change: stability checks
+  std::vector<Vec3> lay, lay_slope;                           // m and -, of every node
+  std::vector<Laid> laid;                                     // of every line: the end from which it was laid
+  FrictionTangent friction_tangent = FrictionTangent::exact;  // of the unfloored tangent
 };
 
 struct Model {

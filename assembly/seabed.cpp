@@ -64,8 +64,8 @@ class ContactElement {
   ContactElement(const Model& model, int line, int element, const Columns& q)
       : bed_(*model.seabed), bar_(model.lines[line].family == Family::bar), l_(model.element.length[element]), q_(q) {
     const int node = model.lines[line].first_node + element - model.lines[line].first_element;
-    if (bed_.laid[line]) lay_[0] = bed_.lay[node], lay_[1] = bed_.lay[node + 1];
-    laid_ = bed_.laid[line];
+    laid_ = bed_.law.rubs() && bed_.laid[line] != Laid::nowhere;
+    if (laid_) lay_ << bed_.lay[node], bed_.lay_slope[node], bed_.lay[node + 1], bed_.lay_slope[node + 1];
   }
 
   /// Some part of the element may touch: its control polygon reaches the bed.
@@ -91,7 +91,7 @@ class ContactElement {
     return bed_.surface.height(r.x(), r.y()) - r.z();
   }
   bool laid() const { return laid_; }
-  Vec3 lay(double xi) const { return (1.0 - xi) * lay_[0] + xi * lay_[1]; }
+  Vec3 lay(const Shapes& n) const { return lay_ * n.s; }
   bool upward_only() const { return bed_.surface.level() && !laid_ && bed_.law.damping == 0.0; }
   const Seabed& seabed() const { return bed_; }
   double length() const { return l_; }
@@ -100,8 +100,7 @@ class ContactElement {
   const Seabed& bed_;
   bool bar_, laid_ = false;
   double l_;
-  Columns q_;
-  Vec3 lay_[2];
+  Columns q_, lay_;
 };
 
 int ContactElement::monotone_cuts(std::array<double, samples + 1>& xi) const {
@@ -180,28 +179,28 @@ void add_upward_point(const SeabedLaw& law, const Shapes& n, double g, double w,
     for (int i = 0; i < 4; ++i) (*K)(3 * i + 2, 3 * j + 2) += n.s[i] * n.s[j] * dN;
 }
 
-ContactForce force_at(const ContactElement& e, const Vec3& r, const Vec3& a, const Vec3& v, double xi, bool with_tangent) {
+ContactForce force_at(const ContactElement& e, const Shapes& n, const Vec3& v, bool secant, bool with_tangent) {
+  const Vec3 r = e.position(n), a = e.slope(n);
   const SurfacePoint<double> bed = e.bed(r);
-  const Vec3 lay = e.laid() ? e.lay(xi) : Vec3::Zero();
+  const Vec3 lay = e.laid() ? e.lay(n) : Vec3::Zero();
   const Vec3* laid = e.laid() ? &lay : nullptr;
-  if (with_tangent) return contact_tangent(e.seabed().law, bed, r, a, v, laid, e.seabed().frozen_pressure);
+  if (with_tangent) return contact_tangent(e.seabed().law, bed, r, a, v, laid, secant ? FrictionTangent::secant : e.seabed().friction_tangent);
   const V3<double> force = contact_force(e.seabed().law, bed, to_v3(r), to_v3(a), to_v3(v), laid);
   ContactForce out;
   out.force = Vec3(force[0], force[1], force[2]);
   return out;
 }
 
-bool add_contact_of(const ContactElement& e, const Columns& v, const TangentWeights& weights, Vector12& f, Matrix12* K) {
+bool add_contact_of(const ContactElement& e, const Columns& v, const TangentWeights& weights, bool secant, Vector12& f, Matrix12* K) {
   const Pieces wet = e.wet(true);
   for (const Piece& piece : wet)
     for (int q = 0; q < points; ++q) {
       const double width = piece.b - piece.a, xi = piece.a + width * gauss_x[q], w = gauss_w[q] * width * e.length();
       const Shapes n = e.shapes(xi);
-      const Vec3 r = e.position(n);
       if (e.upward_only())
-        add_upward_point(e.seabed().law, n, e.seabed().surface.highest() - r.z(), w, weights, f, K);
+        add_upward_point(e.seabed().law, n, e.gap(xi), w, weights, f, K);
       else
-        add_point(e, n, force_at(e, r, e.slope(n), v * n.s, xi, K != nullptr), w, weights, f, K);
+        add_point(e, n, force_at(e, n, v * n.s, secant, K != nullptr), w, weights, f, K);
     }
   return wet.count > 0;
 }
@@ -226,7 +225,7 @@ void add_depth(const ContactElement& e, const Piece& piece, double s0, SeabedCon
 
 /// Calls visit(element, first unknown of its left node, force, tangent or null) for every element in contact that has no joint.
 template <class Visit>
-void for_each_contact(const Model& model, const State& state, const TangentWeights& weights, bool with_tangent, Visit visit) {
+void for_each_contact(const Model& model, const State& state, const TangentWeights& weights, bool secant, bool with_tangent, Visit visit) {
   if (!model.seabed) return;
   Vector12 f;
   Matrix12 K;
@@ -239,7 +238,7 @@ void for_each_contact(const Model& model, const State& state, const TangentWeigh
       if (!e.near() || joint_of(model, l.first_element + i)) continue;
       f.setZero();
       if (with_tangent) K.setZero();
-      if (add_contact_of(e, columns(&state.v[chain.dof(i)], chain.block), weights, f, with_tangent ? &K : nullptr)) visit(chain, i, f, K);
+      if (add_contact_of(e, columns(&state.v[chain.dof(i)], chain.block), weights, secant, f, with_tangent ? &K : nullptr)) visit(chain, i, f, K);
     }
   }
 }
@@ -247,12 +246,12 @@ void for_each_contact(const Model& model, const State& state, const TangentWeigh
 }  // namespace
 
 void add_seabed(const Model& model, const State& state, std::span<double> r) {
-  for_each_contact(model, state, TangentWeights{}, false,
+  for_each_contact(model, state, TangentWeights{}, false, false,
                    [&](const Chain& chain, int node, const Vector12& f, const Matrix12&) { add_force(chain, node, f, r); });
 }
 
-void add_seabed(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, BlockTridiagonal& matrix) {
-  for_each_contact(model, state, weights, true, [&](const Chain& chain, int node, const Vector12& f, const Matrix12& K) {
+void add_seabed(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, bool secant, BlockTridiagonal& matrix) {
+  for_each_contact(model, state, weights, secant, true, [&](const Chain& chain, int node, const Vector12& f, const Matrix12& K) {
     add_force(chain, node, f, r);
     double* blocks[2][2] = {{matrix.D(chain, node), matrix.U(chain, node)}, {matrix.L(chain, node), matrix.D(chain, node + 1)}};
     for (int i = 0; i < 2; ++i)
@@ -263,10 +262,11 @@ void add_seabed(const Model& model, const State& state, std::span<double> r, con
   });
 }
 
-bool add_contact(const Model& model, int line, int element, const ElementState<double>& x, const TangentWeights& weights, Vector12& f, Matrix12* K) {
+bool add_contact(const Model& model, int line, int element, const ElementState<double>& x, const TangentWeights& weights, bool secant, Vector12& f,
+                 Matrix12* K) {
   if (!model.seabed) return false;
   const ContactElement e(model, line, element, columns(x.q));
-  return e.near() && add_contact_of(e, columns(x.v), weights, f, K);
+  return e.near() && add_contact_of(e, columns(x.v), weights, secant, f, K);
 }
 
 Vec3 seabed_force(const Model& model, const State& state, int line, int element, double xi) {
@@ -274,7 +274,7 @@ Vec3 seabed_force(const Model& model, const State& state, int line, int element,
   const ElementState<double> x = element_state(model, state, line, element);
   const ContactElement e(model, line, element, columns(x.q));
   const Shapes n = e.shapes(xi);
-  return force_at(e, e.position(n), e.slope(n), columns(x.v) * n.s, xi, false).force;
+  return force_at(e, n, columns(x.v) * n.s, false, false).force;
 }
 
 SeabedContact observe_seabed(const Model& model, const State& state, int line) {

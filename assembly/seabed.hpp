@@ -22,10 +22,12 @@ namespace hawser {
 
 /// On elements without a joint; a joint's element takes its own (element.hpp).
 void add_seabed(const Model& model, const State& state, std::span<double> r);
-void add_seabed(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, BlockTridiagonal& matrix);
+/// secant: the tangent of friction is positive (a floored tangent).
+void add_seabed(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, bool secant, BlockTridiagonal& matrix);
 
 /// Contact of one element with these nodal vectors, added to f and, where it is given, to K; false: no contact.
-bool add_contact(const Model& model, int line, int element, const ElementState<double>& x, const TangentWeights& weights, Vector12& f, Matrix12* K);
+bool add_contact(const Model& model, int line, int element, const ElementState<double>& x, const TangentWeights& weights, bool secant, Vector12& f,
+                 Matrix12* K);
 
 /// Force of the bed [N/m] at xi of an element.
 Vec3 seabed_force(const Model& model, const State& state, int line, int element, double xi);

@@ -1,7 +1,10 @@
 #include "assembly/seabed_build.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "assembly/arc.hpp"
 
 namespace hawser {
 namespace {
@@ -13,19 +16,44 @@ double diameter_of(const Scene& scene, const SectionSpec& section) {
   return type->diameter;
 }
 
-/// Nodes from `start` in the plan direction, arc length measured on the bed.
-void lay_out(const SeabedSurface& bed, const Line& line, const Vec3& start, const Vec3& direction, bool from, Vec3* lay) {
-  double x = 0.0;  // m, plan distance
+/// Where a line was laid from one end: in plan towards the other end, along an arc where it is longer than its way there and up.
+class Lay {
+ public:
+  /// way: plan distance of the ends; laid: length that does not hang from the other end.
+  Lay(const Vec3& start, const Vec3& direction, double way, double laid, bool from)
+      : start_(start), direction_(direction), laid_(laid), arc_(laid, way), from_(from) {}
+
+  bool from() const { return from_; }  // it starts at the `from` end
+  Vec3 at(double s) const {
+    if (arc_.straight()) return start_ + s * direction_;
+    return start_ + in_plan(arc_.at(std::min(s, laid_)));
+  }
+  Vec3 direction_at(double s) const { return arc_.straight() ? direction_ : in_plan(arc_.direction(std::min(s, laid_))); }
+
+ private:
+  Vec3 in_plan(const Eigen::Vector2d& r) const { return r[0] * direction_ + r[1] * Vec3::UnitZ().cross(direction_); }
+
+  Vec3 start_, direction_;
+  double laid_;
+  Arc arc_;
+  bool from_;
+};
+
+/// Nodes of a line as it was laid, and its direction there. s: plan distance along the way.
+void lay_out(const Line& line, const Lay& lay, Seabed& bed) {
+  double s = 0.0;
   for (int k = 0; k < line.nodes; ++k) {
-    const int node = from ? k : line.nodes - 1 - k, before = from ? k - 1 : line.nodes - k;
+    const int node = lay.from() ? k : line.nodes - 1 - k, before = lay.from() ? k - 1 : line.nodes - k;
     const double l = k > 0 ? std::abs(line.s[node] - line.s[before]) : 0.0;
-    for (int i = 0; i < substeps; ++i) {
-      const Vec3 r = start + x * direction;
-      const SurfacePoint<double> here = bed.at(r.x(), r.y());
-      x += l / substeps / std::hypot(1.0, here.slope[0] * direction.x() + here.slope[1] * direction.y());
-    }
-    lay[node] = start + x * direction;
-    lay[node].z() = bed.height(lay[node].x(), lay[node].y());
+    const auto on_bed = [&] {
+      const Vec3 r = lay.at(s), t = lay.direction_at(s);
+      const SurfacePoint<double> here = bed.surface.at(r.x(), r.y());
+      return std::pair{Vec3(r.x(), r.y(), here.height), Vec3(t.x(), t.y(), here.slope[0] * t.x() + here.slope[1] * t.y())};
+    };
+    for (int i = 0; i < substeps; ++i) s += l / substeps / on_bed().second.norm();
+    const auto [r, t] = on_bed();
+    bed.lay[line.first_node + node] = r;
+    bed.lay_slope[line.first_node + node] = (lay.from() ? 1.0 : -1.0) * t.normalized();
   }
 }
 
@@ -48,9 +76,9 @@ std::optional<Seabed> make_seabed(const Scene& scene, const Model& model) {
   Seabed bed;
   bed.surface = *surface;
   bed.law = {spec.stiffness, spec.smoothing, spec.damping, spec.friction_axial, spec.friction_lateral, spec.slip};
-  bed.laid.assign(model.lines.size(), false);
-  if (!bed.law.rubs()) return bed;
+  bed.laid.assign(model.lines.size(), Laid::nowhere);
   bed.lay.assign(model.node_length.size(), Vec3::Zero());
+  bed.lay_slope = bed.lay;
   for (std::size_t i = 0; i < model.lines.size(); ++i) {
     const Line& line = model.lines[i];
     const LineSpec& written = scene.lines[i];
@@ -62,9 +90,12 @@ std::optional<Seabed> make_seabed(const Scene& scene, const Model& model) {
     if (!from && !to) continue;
     Vec3 direction = from ? Vec3(b - a) : Vec3(a - b);
     direction.z() = 0.0;
-    direction = direction.norm() > 1e-9 * line.length ? direction.normalized() : Vec3::UnitX();
-    lay_out(bed.surface, line, from ? a : b, direction, from, &bed.lay[static_cast<std::size_t>(line.first_node)]);
-    bed.laid[i] = true;
+    const double way = line.from_free || line.to_free ? line.length : direction.norm();
+    const double up = std::max(0.0, height_above(bed.surface, from ? b : a));
+    direction = way > 1e-9 * line.length ? direction.normalized() : Vec3::UnitX();
+    const Lay lay(from ? a : b, direction, way, line.length - up, from);
+    lay_out(line, lay, bed);
+    bed.laid[i] = from ? Laid::from_start : Laid::from_end;
   }
   return bed;
 }

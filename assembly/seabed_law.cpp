@@ -29,7 +29,8 @@ struct Normal {
   }
 };
 
-void add_friction(const SeabedLaw& law, const Normal& bed, double N, double dN, const Vec3& h, const Vec3& a, bool frozen, ContactForce& out) {
+void add_friction(const SeabedLaw& law, const Normal& bed, double N, double dN, const Vec3& h, const Vec3& a, FrictionTangent kind,
+                  ContactForce& out) {
   const double size = bed.e.norm(), difference = law.friction_axial - law.friction_lateral;
   const Vec3 u = bed.along_bed(h), along = bed.along_bed(a);
   const Mat3 T = bed.projection(), du = T + bed.turn(h);
@@ -38,20 +39,21 @@ void add_friction(const SeabedLaw& law, const Normal& bed, double N, double dN, 
   const Vec3 w = law.friction_lateral * u + difference * t.dot(u) * t;
   Mat3 dw = law.friction_lateral * du + difference * t * (t.transpose() * du);
   out.force -= N * size / m * w;
-  if (!frozen) {
+  if (kind == FrictionTangent::exact) {
     const Mat3 across = (Mat3::Identity() - t * t.transpose()) / length;
     const auto turned = [&](const Mat3& dt) -> Mat3 { return difference * (t.dot(u) * dt + t * (u.transpose() * dt)); };
     dw += turned(across * bed.turn(a));
     out.d_a -= N * size / m * turned(across * T);
     out.d_r -= w / m * (dN * size * bed.gap_gradient + N / size * bed.de.transpose() * bed.e).transpose();
   }
-  out.d_r -= N * size / m * (dw - w * (u.transpose() * du) / (m * m));
+  if (kind != FrictionTangent::secant) dw -= w * (u.transpose() * du) / (m * m);
+  out.d_r -= N * size / m * dw;
 }
 
 }  // namespace
 
 ContactForce contact_tangent(const SeabedLaw& law, const SurfacePoint<double>& surface, const Vec3& r, const Vec3& a, const Vec3& v, const Vec3* lay,
-                             bool frozen_pressure) {
+                             FrictionTangent friction) {
   ContactForce out;
   const double g = surface.height - r[2];
   if (!(g > 0.0)) return out;
@@ -65,7 +67,7 @@ ContactForce contact_tangent(const SeabedLaw& law, const SurfacePoint<double>& s
     out.d_r = bed.e * ((dN + c * dphi * rate) * bed.gap_gradient - c * phi * bed.de.transpose() * v).transpose() + F * bed.de;
     out.d_v = -c * phi * bed.e * bed.e.transpose();
   }
-  if (lay) add_friction(law, bed, N, dN, r - *lay, a, frozen_pressure, out);
+  if (lay) add_friction(law, bed, N, dN, r - *lay, a, friction, out);
   return out;
 }
 

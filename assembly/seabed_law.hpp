@@ -67,7 +67,14 @@ struct ContactForce {
   Mat3 d_r = Mat3::Zero(), d_a = Mat3::Zero(), d_v = Mat3::Zero();
 };
 
+/// What a tangent of the friction holds. `secant` and `frozen` are symmetric on a level bed.
+enum class FrictionTangent {
+  exact,
+  frozen,  // without the change of the normal force and of the direction of the line: stability checks
+  secant   // N |e| D/sqrt(u.u + d^2): positive also where the line slides, so that Newton does not overshoot from far away
+};
+
 ContactForce contact_tangent(const SeabedLaw& law, const SurfacePoint<double>& bed, const Vec3& r, const Vec3& a, const Vec3& v, const Vec3* lay,
-                             bool frozen_pressure);
+                             FrictionTangent friction);
 
 }  // namespace hawser

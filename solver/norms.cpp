@@ -86,7 +86,7 @@ double roundoff_force(const Model& model, const State& state) {
   const double k = model.seabed ? model.seabed->law.stiffness : 0.0;
   for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
     const Chain& chain = model.chain(line);
-    const bool laid = model.seabed && model.seabed->laid[line];
+    const bool laid = model.seabed && model.seabed->laid[line] != Laid::nowhere;
     for (int i = 0; i < model.lines[line].elements; ++i) {
       const int e = model.lines[line].first_element + i;
       const double l = model.element.length[e];

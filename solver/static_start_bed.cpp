@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "assembly/arc.hpp"
 #include "assembly/bracketed_root.hpp"
 #include "assembly/seabed_build.hpp"
 #include "solver/static_start_catenary.hpp"
@@ -76,30 +76,6 @@ class Side {
   std::vector<CatenarySegment> list_;
 };
 
-/// An arc of a circle of given length over a chord: places and directions (forward, sideways).
-class Arc {
- public:
-  Arc(double length, double chord) : length_(length) {
-    const double ratio = std::clamp(chord / length, 0.0, 1.0);
-    if (ratio > 1.0 - 1e-12) return;
-    const auto f = [&](double x) { return std::sin(x) / x - ratio; };
-    half_ = bracketed_root(f, 1e-7, std::numbers::pi, 1.0 - ratio, -ratio, fine);
-  }
-  bool straight() const { return half_ == 0.0; }
-  Eigen::Vector2d at(double s) const {
-    if (half_ == 0.0) return {s, 0.0};
-    const double R = 0.5 * length_ / half_, angle = half_ - s / R;
-    return {R * (std::sin(half_) - std::sin(angle)), R * (std::cos(angle) - std::cos(half_))};
-  }
-  Eigen::Vector2d direction(double s) const {
-    const double angle = half_ == 0.0 ? 0.0 : half_ * (1.0 - 2.0 * s / length_);
-    return {std::cos(angle), std::sin(angle)};
-  }
-
- private:
-  double length_, half_ = 0.0;
-};
-
 class LaidLine {
  public:
   LaidLine(const Model& model, int index, const Vec3& from, const Vec3& to)
@@ -118,8 +94,16 @@ class LaidLine {
     for (int e = line_.first_element; e < line_.first_element + line_.elements; ++e)
       softest = std::max({softest, model.element.length[e], std::cbrt(model.element.EI[e] / std::max(w, 1e-300))});
     least_H_ = w * softest;
-    rub_ = model.seabed->laid[index] ? model.seabed->law.friction_axial * w : 0.0;
-    lower_ = held_[0] && (!held_[1] || height_above(model.seabed->surface, from) <= height_above(model.seabed->surface, to)) ? 0 : 1;
+    const Seabed& bed = *model.seabed;
+    rub_ = bed.law.friction_axial * w;
+    lower_ = height_above(bed.surface, from) <= height_above(bed.surface, to) ? 0 : 1;
+    if (!held_[lower_]) lower_ = 1 - lower_;
+    if (bed.laid[index] != Laid::nowhere) {
+      lower_ = bed.laid[index] == Laid::from_start ? 0 : 1;
+      for (int i = 0; i < line_.nodes; ++i) way_.push_back((bed.lay[line_.first_node + i] - ends_[0]).dot(forward_));
+      const Vec3 first = bed.lay_slope[line_.first_node + (lower_ == 0 ? 0 : line_.nodes - 1)];
+      bent_ = first.head<2>().normalized().dot(forward_.head<2>()) < 1.0 - 1e-9;
+    }
     bed_EA_ = model.element.EA[lower_ == 0 ? line_.first_element : line_.first_element + line_.elements - 1];
   }
 
@@ -146,8 +130,15 @@ class LaidLine {
       a_[end] = held_[end] ? sides_[end].suspended(H, ends_[end].z() - level_[end]) : 0.0;
       x_[end] = sides_[end].place(H, a_[end], 0.0).r.x();
     }
-    if (on_bed() <= 0.0) return line_.length;
-    return x_[0] + x_[1] + on_bed() + stretch(line_.length - a_[1]) - X_;
+    if (on_bed() <= 0.0 || bent_) return line_.length;
+    return x_[0] + x_[1] + way(line_.length - a_[1]) - way(a_[0]) + stretch(line_.length - a_[1]) - X_;
+  }
+
+  /// Plan distance along the way to arc length s: on the bed where the line was laid on it, else s itself.
+  double way(double s) const {
+    if (way_.empty()) return s;
+    const int i = std::clamp(static_cast<int>(std::upper_bound(line_.s.begin(), line_.s.end(), s) - line_.s.begin()) - 1, 0, line_.elements - 1);
+    return way_[i] + (s - line_.s[i]) / (line_.s[i + 1] - line_.s[i]) * (way_[i + 1] - way_[i]);
   }
 
   /// Tension on the bed at arc length s: it falls from the touchdown that pulls, the one away from the lower end.
@@ -204,15 +195,25 @@ class LaidLine {
   }
 
   void on_the_bed(const Arc& arc, const Vec3& start, const Vec3& sideways, double s, LineShape& shape, int i) const {
+    const int e = line_.first_element + std::min(i, line_.elements - 1);
+    const double lambda = 1.0 + bed_tension(s) / model_.element.EA[e];
+    const Vec3 sunk(0.0, 0.0, -std::max(model_.element.weight[e], 0.0) / model_.seabed->law.stiffness);
+    if (!way_.empty()) {
+      const int node = line_.first_node + i;
+      const Vec3& t = model_.seabed->lay_slope[node];
+      const double moved = lower_ == 0 ? stretch(s) : stretch(s) - stretch(line_.length);
+      shape.r[i] = model_.seabed->lay[node] + moved * t + sunk;
+      shape.left[i] = shape.right[i] = lambda * t;
+      return;
+    }
     const double along = s - a_[0];
     const Eigen::Vector2d at = arc.at(along), t = arc.direction(along);
     const Vec3 r = start + (at[0] + (arc.straight() ? stretch(s) : 0.0)) * forward_ + at[1] * sideways;
     const SurfacePoint<double> bed = model_.seabed->surface.at(r.x(), r.y());
-    const int e = line_.first_element + std::min(i, line_.elements - 1);
     Vec3 direction = t[0] * forward_ + t[1] * sideways;
     direction.z() = bed.slope[0] * direction.x() + bed.slope[1] * direction.y();
-    shape.r[i] = Vec3(r.x(), r.y(), bed.height - std::max(model_.element.weight[e], 0.0) / model_.seabed->law.stiffness);
-    shape.left[i] = shape.right[i] = (1.0 + bed_tension(s) / model_.element.EA[e]) * direction.normalized();
+    shape.r[i] = Vec3(r.x(), r.y(), bed.height) + sunk;
+    shape.left[i] = shape.right[i] = lambda * direction.normalized();
   }
 
   const Model& model_;
@@ -224,6 +225,8 @@ class LaidLine {
   Vec3 forward_;
   double X_ = 0.0, least_H_ = 0.0;
   double rub_ = 0.0, bed_EA_ = 0.0;  // N/m, friction on the bed; N
+  std::vector<double> way_;          // m, plan distance of the nodes along the way; empty where the line has no end on the bed
+  bool bent_ = false;                // it is laid in an arc: slack
   int lower_ = 0;                    // the end nearer to the bed
   double level_[2] = {0.0, 0.0};     // m, of the bed at the touchdowns
   double H_ = 0.0, a_[2] = {0.0, 0.0}, x_[2] = {0.0, 0.0};

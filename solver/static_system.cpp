@@ -102,7 +102,7 @@ int negative_pivots_of_elastic_tangent(const Model& model, const State& state) {
     body.drag = 0.0;
     body.moment = none;
   }
-  if (elastic.seabed) elastic.seabed->frozen_pressure = true;
+  if (elastic.seabed) elastic.seabed->friction_tangent = FrictionTangent::frozen;
   const Assembler assembler(elastic);
   Tangent tangent = assembler.make_tangent();
   std::vector<double> r(elastic.unknowns);

@@ -21,6 +21,9 @@ constexpr int floored_iterations = 150;    // of one stage; a straight start nee
 constexpr double beam_exact_below = 1e-4;  // residual over reference force: near a solution
 constexpr double loose_tolerance = 1e-6;   // theory 6.1, where the automatic one cannot be reached (slope of a bare end)
 constexpr double loose_increment = 1e-4;   // of the length
+constexpr double first_slip = 0.1;         // of the length: where friction is let in step by step
+constexpr double slip_ratio = 0.1;         // from one slip to the next; its root after a failure
+constexpr double least_slip_step = 0.8;    // then it is given up
 constexpr double floor_share = 0.25;       // of the load: T_f = 0.25 w L (theory 7.2)
 
 double longest_line(const Model& model) {
@@ -84,6 +87,7 @@ class StaticSolver {
     const bool straight = options_.start == StaticStart::straight;
     const State start = options_.start == StaticStart::given ? state_ : static_start(model_, options_.start);
     if (!straight && accepted("Newton from the start", start, 0.0)) return;
+    if (with_friction_step_by_step(start)) return;
     if (accepted("tension-floored Newton from the start", start, floor_)) return;
     if (options_.start != StaticStart::catenary) {
       const State catenary = static_start(model_, StaticStart::catenary);
@@ -117,6 +121,30 @@ class StaticSolver {
     if (!converges(limp_assembler, "without bending stiffness", floor_)) return false;
     const State start = state_;
     return accepted("with bending stiffness from there", start, 0.0) || accepted("the same, tension-floored", start, floor_);
+  }
+
+  /// Friction with a large elastic slip first, which nearly lets the line slide, then with less and less (theory 5.4).
+  bool with_friction_step_by_step(State start) {
+    if (!model_.seabed || !model_.seabed->law.rubs()) return false;
+    const double wanted = model_.seabed->law.slip;
+    Model relaxed = model_;
+    const auto solved = [&](double slip, double floor) {
+      relaxed.seabed->law.slip = slip;
+      state_ = start;
+      return converges(Assembler(relaxed, std::max(1, options_.threads)), fmt::format("friction with a slip of {:.2g} m", slip), floor) &&
+             report_.stable;
+    };
+    double slip = std::max(wanted, first_slip * longest_line(model_));
+    if (!solved(slip, 0.0) && !solved(slip, floor_)) return false;
+    for (double ratio = slip_ratio; slip > wanted && ratio < least_slip_step;) {
+      start = state_;
+      const double next = std::max(wanted, slip * ratio);
+      if (solved(next, 0.0))
+        slip = next;
+      else
+        ratio = std::sqrt(ratio), state_ = start;
+    }
+    return slip == wanted;
   }
 
   bool converges(const Assembler& assembler, const std::string& name, double floor) {

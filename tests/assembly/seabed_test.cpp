@@ -135,7 +135,8 @@ TEST(SeabedLaw, TangentIsTheDerivativeOfTheForce) {
         const Vec3 lay(x[0] + 0.03 * u(random), x[1] + 0.03 * u(random), -10.0);
         const Vec3* laid = l.rubs() ? &lay : nullptr;
         const V3<AD> wanted = contact_force(l, surface.at(part[0][0], part[0][1]), part[0], part[1], part[2], laid);
-        const ContactForce got = contact_tangent(l, surface.at(x[0], x[1]), {x[0], x[1], z}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, laid, false);
+        const ContactForce got =
+            contact_tangent(l, surface.at(x[0], x[1]), {x[0], x[1], z}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, laid, FrictionTangent::exact);
         const double scale = l.stiffness + l.damping + (l.rubs() ? friction_stiffness(l) * got.force.z() : 0.0);
         for (int i = 0; i < 3; ++i) {
           EXPECT_NEAR(got.force[i], wanted[i].v, 1e-12 * scale);
@@ -213,7 +214,7 @@ TEST_P(SeabedUnder, TangentIsTheDerivativeOfTheResidualWhereTheRootsMove) {
     BlockTridiagonal matrix(model.chains);
     matrix.set_zero();
     std::vector<double> r(model.unknowns, 0.0), unit(model.dofs, 0.0), column(model.dofs);
-    add_seabed(model, state, r, w, matrix);
+    add_seabed(model, state, r, w, false, matrix);
     const auto alone = residual(state);
     for (std::size_t i = 0; i < r.size(); ++i) EXPECT_NEAR(r[i], alone[i], 1e-12 * 2.0e3) << "the force is the same with and without a tangent";
     double largest = 0.0;
@@ -242,7 +243,7 @@ TEST_P(SeabedUnder, ElementsWithAndWithoutAJointTakeTheSameContact) {
   const int b = model.chain(0).block;
   for (int e = 0; e < 4; ++e) {
     Vector12 f = Vector12::Zero();
-    add_contact(model, 0, e, element_state(model, state, 0, e), TangentWeights{}, f, nullptr);
+    add_contact(model, 0, e, element_state(model, state, 0, e), TangentWeights{}, false, f, nullptr);
     for (int end = 0; end < 2; ++end)
       for (int i = 0; i < b; ++i) sum[model.dof(0, e + end) + i] += f[6 * end + i];
   }
@@ -316,11 +317,11 @@ TEST(Seabed, LayStateRunsFromTheGroundedEndInPlanTowardsTheOther) {
   builder.scene.environment.depth = 50.0;
   builder.scene.environment.seabed.friction_axial = 0.5;
   const Model model = build_model(builder.scene);
-  ASSERT_TRUE(model.seabed->laid[0]);
+  ASSERT_EQ(model.seabed->laid[0], Laid::from_end);
   EXPECT_NEAR((model.seabed->lay[13] - Vec3(63, 84, -50)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((model.seabed->lay[3] - Vec3(3, 4, -50)).norm(), 0.0, 1e-12);  // 100 m from the anchor
   builder.scene.points[1].position.z() = -49.0;
-  EXPECT_FALSE(build_model(builder.scene).seabed->laid[0]) << "an end that hangs above the bed";
+  EXPECT_EQ(build_model(builder.scene).seabed->laid[0], Laid::nowhere) << "an end that hangs above the bed";
 }
 
 TEST(Seabed, LayStateFollowsTheLengthOfASlope) {
@@ -330,6 +331,17 @@ TEST(Seabed, LayStateFollowsTheLengthOfASlope) {
   builder.scene.environment.seabed.friction_lateral = 0.5;
   const Model model = build_model(builder.scene);
   EXPECT_NEAR((model.seabed->lay[6] - Vec3(48.0, 0.0, -36.0)).norm(), 0.0, 1e-11);
+}
+
+TEST(Seabed, ALineLongerThanItsWayIsLaidInAnArcThatEndsBelowItsOtherEnd) {
+  SceneBuilder builder;
+  builder.dry().type(test::line_type("t", 1e5, 12.0)).fixed("a", {0, 0, -50}).fixed("b", {60, 0, -20.0}).line("a", "b").section("t", 120.0, 240);
+  builder.scene.environment.depth = 50.0;
+  const Model model = build_model(builder.scene);
+  const std::vector<Vec3>& lay = model.seabed->lay;
+  EXPECT_NEAR((lay[180] - Vec3(60, 0, -50)).norm(), 0.0, 1e-9);                        // 90 m on the bed, 30 m up
+  for (int i = 0; i < 180; ++i) EXPECT_NEAR((lay[i + 1] - lay[i]).norm(), 0.5, 1e-5);  // chord of an arc of radius 35 m: 4e-6 shorter
+  EXPECT_GT(lay[90].y(), 20.0);
 }
 
 TEST(BracketedRoot, FindsRootsOfFlatAndSteepFunctions) {
