@@ -7,7 +7,7 @@ unset logscale
 set format '%g'
 set title 'wall time of one thread over that of two (beam in water, chain solver)'
 set ylabel 'gain'
-set yrange [0:2.2]
+set yrange [0:2.6]
 set style data histogram
 set style histogram clustered gap 1.5
 set style fill solid 0.9 border rgb '#444444'
