@@ -15,25 +15,32 @@ struct Normal {
       for (int j = 0; j < 2; ++j) de(i, j) = -bed.curvature[i][j];
   }
 
-  /// (x, y) lifted along the bed, and its derivative with the place for fixed (x, y).
-  Vec3 along_bed(const Vec3& h) const { return {h[0], h[1], -e[0] * h[0] - e[1] * h[1]}; }
-  Mat3 turn(const Vec3& h) const {
+  /// (x, y) lifted along the bed, and its derivatives with (x, y) and with the place.
+  Vec3 lifted(const Vec3& h) const { return {h[0], h[1], -e[0] * h[0] - e[1] * h[1]}; }
+  Mat3 lift() const {
+    Mat3 T = Mat3::Identity();
+    T.row(2) << -e[0], -e[1], 0.0;
+    return T;
+  }
+  Mat3 lift_by_place(const Vec3& h) const {
     Mat3 d = Mat3::Zero();
     d.row(2) = -(h[0] * de.row(0) + h[1] * de.row(1));
     return d;
   }
-  Mat3 projection() const {
-    Mat3 T = Mat3::Identity();
-    T.row(2) << -e[0], -e[1], 0.0;
-    return T;
+
+  /// h without its part along e, and its derivative where h moves with the place.
+  Vec3 projected(const Vec3& h) const { return h - e.dot(h) / e.squaredNorm() * e; }
+  Mat3 projected_by_place(const Vec3& h) const {
+    const double ee = e.squaredNorm(), part = e.dot(h) / ee;
+    return Mat3::Identity() - part * de - e * (e + de.transpose() * (h - 2.0 * part * e)).transpose() / ee;
   }
 };
 
 void add_friction(const SeabedLaw& law, const Normal& bed, double N, double dN, const Vec3& h, const Vec3& a, FrictionTangent kind,
                   ContactForce& out) {
   const double size = bed.e.norm(), difference = law.friction_axial - law.friction_lateral;
-  const Vec3 u = bed.along_bed(h), along = bed.along_bed(a);
-  const Mat3 T = bed.projection(), du = T + bed.turn(h);
+  const Vec3 u = bed.projected(h), along = bed.lifted(a);
+  const Mat3 du = bed.projected_by_place(h);
   const double m = std::sqrt(u.squaredNorm() + law.slip * law.slip), length = std::sqrt(along.squaredNorm() + upright_slope * upright_slope);
   const Vec3 t = along / length;
   const Vec3 w = law.friction_lateral * u + difference * t.dot(u) * t;
@@ -42,8 +49,8 @@ void add_friction(const SeabedLaw& law, const Normal& bed, double N, double dN, 
   if (kind == FrictionTangent::exact) {
     const Mat3 across = (Mat3::Identity() - t * t.transpose()) / length;
     const auto turned = [&](const Mat3& dt) -> Mat3 { return difference * (t.dot(u) * dt + t * (u.transpose() * dt)); };
-    dw += turned(across * bed.turn(a));
-    out.d_a -= N * size / m * turned(across * T);
+    dw += turned(across * bed.lift_by_place(a));
+    out.d_a -= N * size / m * turned(across * bed.lift());
     out.d_r -= w / m * (dN * size * bed.gap_gradient + N / size * bed.de.transpose() * bed.e).transpose();
   }
   if (kind != FrictionTangent::secant) dw -= w * (u.transpose() * du) / (m * m);

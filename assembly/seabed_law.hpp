@@ -7,8 +7,9 @@
 //   friction        -N |e| D u/sqrt(u.u + d^2),   D = mu_l I + (mu_a - mu_l) t t^T
 //
 // On a level bed the force is k max(g, 0), upward; on a slope it has that vertical part and is normal to the bed. u is the displacement
-// from where the line was laid, along the bed; t the direction of the line along the bed; d the elastic slip: friction is a spring of
-// mu N/d for |u| << d and mu N beyond. It depends on the state alone (statics): no velocity, no history.
+// from where the line was laid, projected on the bed (a line that sinks normally to the bed does not slide); t the direction of the line along the
+// bed; d the elastic slip: friction is a spring of mu N/d for |u| << d and mu N beyond. It depends on the state alone (statics): no velocity, no
+// history.
 #pragma once
 
 #include "assembly/environment/seabed_surface.hpp"
@@ -53,7 +54,7 @@ V3<S> contact_force(const SeabedLaw& law, const SurfacePoint<S>& bed, const V3<S
   V3<S> force = maximum(N - S(law.damping) * phi * dot(e, v), S(0.0)) * e;
   if (lay == nullptr) return force;
   const auto along_bed = [&](const S& x, const S& y) { return V3<S>{{x, y, p * x + q * y}}; };
-  const V3<S> u = along_bed(r[0] - S((*lay)[0]), r[1] - S((*lay)[1])), along = along_bed(a[0], a[1]);
+  const V3<S> h{{r[0] - S((*lay)[0]), r[1] - S((*lay)[1]), r[2] - S((*lay)[2])}}, u = h - dot(e, h) / dot(e, e) * e, along = along_bed(a[0], a[1]);
   const V3<S> t = (S(1.0) / square_root(dot(along, along) + S(upright_slope * upright_slope))) * along;
   const S rub = N * square_root(dot(e, e)) / square_root(dot(u, u) + S(law.slip * law.slip));
   add_scaled(force, S(-law.friction_lateral) * rub, u);

@@ -121,6 +121,12 @@ class LaidLine {
 
  private:
   double bed_at(const Vec3& r) const { return model_.seabed->surface.height(r.x(), r.y()); }
+  /// (-p, -q, 1)/(1 + p^2 + q^2): moving against it deepens the vertical penetration by as much.
+  Vec3 normal_at(const Vec3& r) const {
+    const SurfacePoint<double> bed = model_.seabed->surface.at(r.x(), r.y());
+    const Vec3 e(-bed.slope[0], -bed.slope[1], 1.0);
+    return e / e.squaredNorm();
+  }
   double on_bed() const { return line_.length - a_[0] - a_[1]; }
 
   /// Suspended lengths and spans for this H; the span of the whole line less X, or "too far" where no part is left on the bed.
@@ -197,12 +203,13 @@ class LaidLine {
   void on_the_bed(const Arc& arc, const Vec3& start, const Vec3& sideways, double s, LineShape& shape, int i) const {
     const int e = line_.first_element + std::min(i, line_.elements - 1);
     const double lambda = 1.0 + bed_tension(s) / model_.element.EA[e];
-    const Vec3 sunk(0.0, 0.0, -std::max(model_.element.weight[e], 0.0) / model_.seabed->law.stiffness);
+    const double depth = std::max(model_.element.weight[e], 0.0) / model_.seabed->law.stiffness;
     if (!way_.empty()) {
       const int node = line_.first_node + i;
       const Vec3& t = model_.seabed->lay_slope[node];
       const double moved = lower_ == 0 ? stretch(s) : stretch(s) - stretch(line_.length);
-      shape.r[i] = model_.seabed->lay[node] + moved * t + sunk;
+      shape.r[i] = model_.seabed->lay[node] + moved * t;
+      shape.r[i] -= depth * normal_at(shape.r[i]);
       shape.left[i] = shape.right[i] = lambda * t;
       return;
     }
@@ -212,7 +219,7 @@ class LaidLine {
     const SurfacePoint<double> bed = model_.seabed->surface.at(r.x(), r.y());
     Vec3 direction = t[0] * forward_ + t[1] * sideways;
     direction.z() = bed.slope[0] * direction.x() + bed.slope[1] * direction.y();
-    shape.r[i] = Vec3(r.x(), r.y(), bed.height) + sunk;
+    shape.r[i] = Vec3(r.x(), r.y(), bed.height - depth);
     shape.left[i] = shape.right[i] = lambda * direction.normalized();
   }
 

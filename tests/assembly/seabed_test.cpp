@@ -116,6 +116,16 @@ TEST(SeabedLaw, FrictionTendsToCoulombAxiallyAndLaterally) {
   EXPECT_EQ(lateral[0], 0.0);
 }
 
+TEST(SeabedLaw, ALineThatSinksNormallyToASlopeDoesNotRub) {
+  const SeabedSurface plane(BathymetryGrid{{0.0, 10.0}, {0.0, 5.0}, {-100.0, -97.0, -99.0, -96.0}});
+  const Vec3 lay(5.0, 2.0, plane.height(5.0, 2.0)), normal(-0.3, -0.2, 1.0), sunk = lay - 0.1 * normal;
+  const auto at = plane.at(sunk.x(), sunk.y());
+  const auto force =
+      contact_force(law(0, 0, 0.5, 0.5), at, V3<double>{{sunk.x(), sunk.y(), sunk.z()}}, V3<double>{{1, 0, 0}}, V3<double>{{0, 0, 0}}, &lay);
+  EXPECT_NEAR(force[0], -0.3 * force[2], 1e-9);
+  EXPECT_NEAR(force[1], -0.2 * force[2], 1e-9);
+}
+
 // Analytic derivatives against automatic differentiation of the force itself; both are sums of a few dozen products: 1e-12.
 TEST(SeabedLaw, TangentIsTheDerivativeOfTheForce) {
   using AD = Dual<9>;
@@ -132,7 +142,7 @@ TEST(SeabedLaw, TangentIsTheDerivativeOfTheForce) {
         const double z = surface.height(x[0], x[1]) - 0.05 - 0.4 * std::abs(u(random));
         V3<AD> part[3];
         for (int i = 0; i < 9; ++i) part[i / 3][i % 3] = AD::variable(i == 2 ? z : x[i], i);
-        const Vec3 lay(x[0] + 0.03 * u(random), x[1] + 0.03 * u(random), -10.0);
+        const Vec3 lay(x[0] + 0.03 * u(random), x[1] + 0.03 * u(random), z + 0.1 * u(random));
         const Vec3* laid = l.rubs() ? &lay : nullptr;
         const V3<AD> wanted = contact_force(l, surface.at(part[0][0], part[0][1]), part[0], part[1], part[2], laid);
         const ContactForce got =

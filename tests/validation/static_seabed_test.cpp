@@ -235,7 +235,7 @@ TEST_P(Jlay, ShapeAndForcesMeetTheHeavyElastica) {
   check("H", 0, H, noise, bound * T);
   check("V", 1, c.value("V0 internal vertical force just above touchdown (= - contact point force)") + w * suspended, noise, bound * T);
   check("T", 2, T, noise, bound * T);
-  const double most = c.value("max curvature");  // met to 2e-5; order 2 promises no more than the bound here
+  const double most = c.value("max curvature");  // met to 1e-4; order 2 promises no more than the bound here
   check("curvature", 3, most, 0.0, 3e-3 * most);
   const auto x = c.value<std::vector<double>>("stations x"), z = c.value<std::vector<double>>("stations z");
   const auto curvature = c.value<std::vector<double>>("stations kappa");
