@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "assembly/bracketed_root.hpp"
 
@@ -77,6 +78,13 @@ class ContactElement {
     return low.z() < bed_.surface.highest_within(low.x(), high.x(), low.y(), high.y());
   }
 
+  /// On a level bed: all of it below, at least by `depth`.
+  bool immersed(double depth) const {
+    const auto z = q_.row(2);
+    const double highest = std::max({z[0], z[0] + l_ / 3.0 * z[1], z[2] - l_ / 3.0 * z[3], z[2]});
+    return bed_.surface.level() && highest < bed_.surface.highest() - depth;
+  }
+
   /// Pieces with g > 0, cut where g = 0 and, if `toe`, where g = delta.
   Pieces wet(bool toe) const;
   /// Ends of pieces on which the penetration is monotone: exactly on a level bed (the extrema of the cubic), by sampling on a grid.
@@ -86,8 +94,11 @@ class ContactElement {
   Vec3 position(const Shapes& n) const { return q_ * n.s; }
   Vec3 slope(const Shapes& n) const { return q_ * n.ds; }
   SurfacePoint<double> bed(const Vec3& r) const { return bed_.surface.at(r.x(), r.y()); }
+  double level_gap(const Shapes& n) const { return bed_.surface.highest() - q_.row(2).dot(n.s); }
   double gap(double xi) const {
-    const Vec3 r = position(shapes(xi));
+    const Shapes n = shapes(xi);
+    if (bed_.surface.level()) return level_gap(n);
+    const Vec3 r = position(n);
     return bed_.surface.height(r.x(), r.y()) - r.z();
   }
   bool laid() const { return laid_; }
@@ -128,6 +139,7 @@ int ContactElement::monotone_cuts(std::array<double, samples + 1>& xi) const {
 }
 
 Pieces ContactElement::wet(bool toe) const {
+  if (immersed(toe ? bed_.law.smoothing : 0.0)) return {{Piece{0.0, 1.0}}, 1};
   const double levels[2] = {0.0, bed_.law.smoothing};
   const int level_count = toe && bed_.law.smoothing > 0.0 ? 2 : 1;
   std::array<double, samples + 1> xi;
@@ -198,11 +210,17 @@ bool add_contact_of(const ContactElement& e, const Columns& v, const TangentWeig
       const double width = piece.b - piece.a, xi = piece.a + width * gauss_x[q], w = gauss_w[q] * width * e.length();
       const Shapes n = e.shapes(xi);
       if (e.upward_only())
-        add_upward_point(e.seabed().law, n, e.gap(xi), w, weights, f, K);
+        add_upward_point(e.seabed().law, n, e.level_gap(n), w, weights, f, K);
       else
         add_point(e, n, force_at(e, n, v * n.s, secant, K != nullptr), w, weights, f, K);
     }
   return wet.count > 0;
+}
+
+/// No part of the element is below this height: the least of its control points.
+double lowest(const double* q, int block, double l) {
+  const double z0 = q[2], z1 = q[block + 2], inner = block == 6 ? l / 3.0 : 0.0;
+  return std::min({z0, z1, z0 + inner * q[block - 1], z1 - inner * q[2 * block - 1]});
 }
 
 void add_force(const Chain& chain, int node, const Vector12& f, std::span<double> r) {
@@ -227,6 +245,8 @@ void add_depth(const ContactElement& e, const Piece& piece, double s0, SeabedCon
 template <class Visit>
 void for_each_contact(const Model& model, const State& state, const TangentWeights& weights, bool secant, bool with_tangent, Visit visit) {
   if (!model.seabed) return;
+  // Beyond its soundings a grid may rise above the highest of them.
+  const double top = model.seabed->surface.level() ? model.seabed->surface.highest() : std::numeric_limits<double>::infinity();
   Vector12 f;
   Matrix12 K;
   for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
@@ -234,6 +254,7 @@ void for_each_contact(const Model& model, const State& state, const TangentWeigh
     const Chain& chain = model.chain(line);
     for (int i = 0; i < l.elements; ++i) {
       const double* q = &state.q[chain.dof(i)];
+      if (lowest(q, chain.block, model.element.length[l.first_element + i]) >= top) continue;
       const ContactElement e(model, line, l.first_element + i, columns(q, chain.block));
       if (!e.near() || joint_of(model, l.first_element + i)) continue;
       f.setZero();
