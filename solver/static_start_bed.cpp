@@ -16,6 +16,7 @@ namespace {
 constexpr int scans = 4;   // of a segment, for the first place where the rise reaches the height
 constexpr int passes = 3;  // over the level of the bed at the touchdowns
 constexpr double fine = 1e-13;
+constexpr double smallest_pull = 1e-3;  // H of a slack line, of the weight of an element (of the bending length)
 
 /// Elements from the far end of the line to one of its held ends, neighbours of equal EA and load joined. x forward, z up.
 class Side {
@@ -93,7 +94,7 @@ class LaidLine {
     double softest = 0.0;
     for (int e = line_.first_element; e < line_.first_element + line_.elements; ++e)
       softest = std::max({softest, model.element.length[e], std::cbrt(model.element.EI[e] / std::max(w, 1e-300))});
-    least_H_ = w * softest;
+    least_H_ = smallest_pull * w * softest;
     const Seabed& bed = *model.seabed;
     rub_ = bed.law.friction_axial * w;
     lower_ = height_above(bed.surface, from) <= height_above(bed.surface, to) ? 0 : 1;
