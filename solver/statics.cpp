@@ -157,7 +157,7 @@ class StaticSolver {
     newton_options.floor = floor;
     newton_options.increment_tolerance = increment_tolerance_;
     newton_options.max_iterations = std::min(left, floor > 0.0 ? floored_iterations : unfloored_iterations);
-    newton_options.inexact_matrix = !linear_->takes_unsymmetric() && model_.wet;
+    newton_options.inexact_matrix = !linear_->takes_unsymmetric() && unsymmetric();
     const NewtonReport result = newton(system, newton_options);
     record(system, result);
     if (result.converged()) certify(system);
@@ -168,6 +168,9 @@ class StaticSolver {
     if (!report_.converged || !report_.stable) report_.failure = explain_failure(model_, state_, system, result, report_);
     return result.converged();
   }
+
+  /// Drag, friction and a bed that is not level have no potential.
+  bool unsymmetric() const { return model_.wet || (model_.seabed && (model_.seabed->law.rubs() || !model_.seabed->surface.level())); }
 
   void record(StaticSystem& system, const NewtonReport& result) {
     report_.iterations += result.factorizations;

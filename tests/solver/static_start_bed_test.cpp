@@ -92,6 +92,25 @@ TEST_P(OnTheSeabed, IsTheSameFromItsOtherEnd) {
   EXPECT_NEAR(a.length, b.length, 1e-5 * GetParam().length);
 }
 
+// Friction makes the tangent unsymmetric: CHOLMOD takes its symmetric part. The same state to the tolerance of Newton, by every solver.
+TEST(OnTheSeabed, EveryLinearSolverFindsTheSameState) {
+  const Case mooring = cases[2];
+  const Model model = build_model(scene(mooring));
+  const Assembler assembler(model);
+  double first = 0.0;
+  for (LinearSolverKind kind :
+       {LinearSolverKind::chain, LinearSolverKind::band, LinearSolverKind::umfpack, LinearSolverKind::klu, LinearSolverKind::cholmod}) {
+    StaticOptions options;
+    options.linear_solver = kind;
+    State state;
+    const StaticReport report = solve_static(assembler, options, state);
+    ASSERT_TRUE(report.converged) << report.linear_solver << ": " << report.failure.what;
+    const double tension = observe_line(model, state, 0).tension_to;
+    if (first == 0.0) first = tension;
+    EXPECT_NEAR(tension, first, 1e-7 * first) << report.linear_solver;
+  }
+}
+
 TEST(LaidShape, IsTheCatenaryOfTheFreePartAndLevelOnTheBed) {
   Scene s = scene(cases[0]);
   const Model model = build_model(s);
