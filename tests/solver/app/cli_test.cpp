@@ -92,6 +92,29 @@ TEST_F(Cli, StaticDocumentHasEveryKeyOfTheContract) {
   EXPECT_EQ(document.at("points").at("end").at("position").size(), 3U);
 }
 
+TEST_F(Cli, StaticDocumentTellsWhatLiesOnTheSeabed) {
+  const std::string scene = std::string(HAWSER_SOURCE_DIR) + "/data/scenes/mooring-chain.toml";
+  const Outcome outcome = hawser("static " + scene + " --json -q --set environment.seabed.friction=0.5");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json line = outcome.json().at("lines").at("mooring"), bed = line.at("seabed");
+  ASSERT_EQ(line.at("touchdown").size(), 1u);
+  EXPECT_NEAR(line.at("touchdown")[0], bed.at("length"), 1e-9);  // the anchor lies on the bed
+  EXPECT_NEAR(bed.at("touchdown_positions")[0][2], -320.0, 1e-9);
+  EXPECT_GT(bed.at("force"), 0.0);
+  EXPECT_NEAR(bed.at("penetration_max"), 698.094 / 1e5 + 0.0025, 1e-6);  // w/k and half of the toe
+  EXPECT_LT(line.at("tension_from"), line.at("tension_min").get<double>() + 1.0);
+  const Outcome text = hawser("static " + scene + " -q");
+  EXPECT_NE(text.out.find("on the seabed"), std::string::npos) << text.out;
+}
+
+TEST_F(Cli, FrictionOfTheSeabedInMotionIsRefusedByName) {
+  const std::string scene = std::string(HAWSER_SOURCE_DIR) + "/data/scenes/mooring-chain.toml";
+  const Outcome outcome = hawser("run " + scene + " --out results --set environment.seabed.friction=0.5");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("friction of the seabed in motion is not built yet"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(exists("results"));
+}
+
 TEST_F(Cli, StationsAreEvenFromEndToEnd) {
   write("scene.toml", small_scene);
   const nlohmann::json document = hawser("static scene.toml --json --stations 5 --quiet").json();

@@ -94,6 +94,13 @@ TEST_F(RecordedRun, ClampedEndsAddTheirMoment) {
   EXPECT_THROW(series.value(0, "a.moment_to"), std::runtime_error);
 }
 
+TEST_F(RecordedRun, ASeabedAddsTheFirstTouchdown) {
+  const std::string scene = std::string(HAWSER_SOURCE_DIR) + "/data/scenes/mooring-chain.toml";
+  ASSERT_EQ(hawser("run " + scene + " -q --out results --set dynamics.duration=1.0").code, 0);
+  const Series series = read_series(folder_ / "results/series.csv");
+  EXPECT_NEAR(series.value(0, "mooring.touchdown"), 138.2, 0.1);
+}
+
 TEST_F(RecordedRun, SummaryCountsAndPicturesAndScriptsAreThere) {
   write("scene.toml", small_scene);
   const Outcome outcome = hawser("run scene.toml --json");
