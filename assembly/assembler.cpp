@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdlib>
-#include <string_view>
 
 #include "assembly/bodies.hpp"
 #include "assembly/element.hpp"
@@ -16,23 +14,8 @@ namespace hawser {
 
 namespace {
 
-/// The widest instruction set of this processor; HAWSER_SIMD=base|avx2 forces a narrower one.
-const SweepTable& choose_sweep_table() {
-#if defined(__x86_64__)
-  const char* forced = std::getenv("HAWSER_SIMD");
-  const std::string_view limit = forced ? forced : "";
-  const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  const bool has_avx512 = has_avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-  if (has_avx512 && limit != "base" && limit != "avx2") return avx512::sweep_table;
-  if (has_avx2 && limit != "base") return avx2::sweep_table;
-#endif
-  return base::sweep_table;
-}
-
-int sweep_family(Family family, bool wet) { return 2 * static_cast<int>(family) + (wet ? 1 : 0); }
-
-// Below this many elements the start of a parallel region costs more than it saves (architecture: serial below about 500).
-constexpr int serial_below = 500;
+// Below this many elements two threads gain nothing: starting a parallel region costs about as much as the sweep of 1000 (bench/README.md).
+constexpr int serial_below = 2000;
 
 }  // namespace
 
@@ -49,7 +32,7 @@ struct Assembler::Impl {
   };
 
   const Model& model;
-  const SweepTable& sweep = choose_sweep_table();
+  const SweepTable& sweep = widest_sweep_table();
   int threads;
   std::vector<double> property[property_count];
   std::vector<double> node_property[node_property_count];
@@ -147,7 +130,7 @@ struct Assembler::Impl {
   }
 
   void run_panel(int p, const State& state, const TangentWeights& w, double* r, double* values) {
-    const int family = sweep_family(model.lines[panels[p].line].family, model.wet);
+    const int family = sweep_family(static_cast<int>(model.lines[panels[p].line].family), model.wet);
     const SweepLine line = sweep_line(panels[p].line, state, w, r, values);
     (values ? sweep.tangent : sweep.force)[family](line, panels[p].panel);
   }
@@ -168,6 +151,8 @@ struct Assembler::Impl {
 
 Assembler::Assembler(const Model& model, int threads) : model_(model), impl_(std::make_unique<Impl>(model, std::max(1, threads))) {}
 Assembler::~Assembler() = default;
+
+int Assembler::threads() const { return impl_->threads; }
 
 Tangent Assembler::make_tangent() const {
   Tangent t;

@@ -41,6 +41,7 @@ class Assembler {
  public:
   /// threads >= 1. The model must outlive the assembler.
   explicit Assembler(const Model& model, int threads = 1);
+  int threads() const;
   ~Assembler();
   Assembler(const Assembler&) = delete;
   Assembler& operator=(const Assembler&) = delete;

@@ -1,6 +1,7 @@
 #include "assembly/element.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "assembly/seabed.hpp"
 
@@ -50,17 +51,23 @@ void evaluate(const ElementState<double>& x, const Properties<double>& e, const 
   }
 }
 
+/// Calls f with the family's type.
+template <class F>
+void with_family(Family family, bool wet, F&& f) {
+  switch (family) {
+    case Family::bar:
+      return wet ? f(std::type_identity<BarWet>{}) : f(std::type_identity<BarDry>{});
+    case Family::cable:
+      return wet ? f(std::type_identity<CableWet>{}) : f(std::type_identity<CableDry>{});
+    case Family::beam:
+      return wet ? f(std::type_identity<BeamWet>{}) : f(std::type_identity<BeamDry>{});
+  }
+}
+
 template <Want want>
 void evaluate_family(Family family, bool wet, const ElementState<double>& x, const Properties<double>& e, const Weights& w,
                      const CurrentTable& current, Element& out) {
-  switch (family) {
-    case Family::bar:
-      return wet ? evaluate<BarWet, want>(x, e, w, current, out) : evaluate<BarDry, want>(x, e, w, current, out);
-    case Family::cable:
-      return wet ? evaluate<CableWet, want>(x, e, w, current, out) : evaluate<CableDry, want>(x, e, w, current, out);
-    case Family::beam:
-      return wet ? evaluate<BeamWet, want>(x, e, w, current, out) : evaluate<BeamDry, want>(x, e, w, current, out);
-  }
+  with_family(family, wet, [&](auto of) { evaluate<typename decltype(of)::type, want>(x, e, w, current, out); });
 }
 
 void subtract_spread_loads(const Model& model, const State& state, int line, int element, Vector12& f) {
@@ -125,6 +132,22 @@ Vector12 element_force(const Model& model, const State& state, int line, int ele
   subtract_spread_loads(model, state, line, element, out.f);
   add_contact(model, line, element, x, TangentWeights{}, false, out.f, nullptr);
   return out.f;
+}
+
+Observed<double> observe_element(const Model& model, const State& state, int line, int element) {
+  const ElementState<double> x = element_state(model, state, line, element);
+  Observed<double> out;
+  with_family(model.lines[line].family, model.wet, [&](auto family) {
+    observe<typename decltype(family)::type>(x, element_properties(model, element, no_floor), current_table(model), out);
+  });
+  const Vector12 f = element_force(model, state, line, element);
+  const bool bar = model.lines[line].family == Family::bar;
+  const auto direction = [&](const V3<double>& slope) {
+    return (bar ? Vec3(x.q.r1[0] - x.q.r0[0], x.q.r1[1] - x.q.r0[1], x.q.r1[2] - x.q.r0[2]) : Vec3(slope[0], slope[1], slope[2])).normalized();
+  };
+  out.tension[0] = -f.segment<3>(0).dot(direction(x.q.s0));
+  out.tension[1] = f.segment<3>(6).dot(direction(x.q.s1));
+  return out;
 }
 
 Eigen::Vector4d spread_factors(Family family, double l, double xi0, double xi1) {

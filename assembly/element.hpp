@@ -5,8 +5,8 @@
 //   b_dot = mu_dot r' + mu r'_dot,   b_ddot = mu_ddot r' + 2 mu_dot r'_dot + mu r'_ddot.
 #pragma once
 
-#include "assembly/kernel.hpp"
 #include "assembly/model.hpp"
+#include "assembly/observed.hpp"
 #include "assembly/state.hpp"
 
 namespace hawser {
@@ -33,6 +33,9 @@ Element evaluate_element(const Model& model, const State& state, int line, int e
 
 /// The force alone (K is left empty).
 Vector12 element_force(const Model& model, const State& state, int line, int element);
+
+/// What the element shows at its ends, with its spread loads and contact.
+Observed<double> observe_element(const Model& model, const State& state, int line, int element);
 
 /// Nodal forces of an even load of unit total over [xi0, xi1] of an element of length l: integrals of the shape functions.
 Eigen::Vector4d spread_factors(Family family, double l, double xi0, double xi1);

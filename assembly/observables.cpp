@@ -7,6 +7,7 @@
 
 #include "assembly/element.hpp"
 #include "assembly/seabed.hpp"
+#include "assembly/sweep.hpp"
 
 namespace hawser {
 
@@ -96,10 +97,6 @@ Vec3 force_inside(const Model& model, const State& state, int line, const Elemen
   return (1.0 - 3.0 * x2 + 2.0 * x3) * f.left + (3.0 * x2 - 2.0 * x3) * f.right + l * (xi - 2.0 * x2 + x3) * rate(0.0) + l * (x3 - x2) * rate(1.0);
 }
 
-double strain_tension(const Model& model, const ElementView& e, int element, double xi) {
-  return model.element.EA[element] * (e.q.slope(xi).norm() - 1.0);
-}
-
 Station station_at(const Model& model, const State& state, int line, int element, double xi) {
   const ElementView e = view(model, state, line, element);
   Station s;
@@ -113,33 +110,70 @@ Station station_at(const Model& model, const State& state, int line, int element
 /// Moment on the point at an end: the generalized force on r' turned into r' x f, seen from the point.
 Vec3 end_moment(const Vec3& slope, const Vec3& generalized) { return -slope.cross(generalized); }
 
-void observe_element(const Model& model, const State& state, int line, int i, LineResult& out) {
-  const Line& l = model.lines[line];
-  const int element = l.first_element + i;
-  const ElementView e = view(model, state, line, element);
-  const EndForces f = end_forces(model, state, line, element);
-  out.tension_right[i] = f.left.dot(e.q.slope(0.0).normalized());
-  out.tension_left[i + 1] = f.right.dot(e.q.slope(1.0).normalized());
-  if (l.family != Family::bar)
-    for (int end = 0; end < 2; ++end) out.curvature[i + end] = std::max(out.curvature[i + end], material_curvature(e, end));
-  double least = std::numeric_limits<double>::infinity();
-  for (double xi : {0.0, 0.5, 1.0}) {
-    const double tension = strain_tension(model, e, element, xi);
-    least = std::min(least, tension);
-    if (tension < out.least_strain_tension) {
-      out.least_strain_tension = tension;
-      out.least_strain_tension_s = l.s[i] + xi * e.length;
+/// Elements of a line, a panel at a time in packs.
+class ObservedPanel {
+ public:
+  ObservedPanel(const Model& model, const State& state, int line, int first, int count) {
+    const Line& l = model.lines[line];
+    const ElementArrays& e = model.element;
+    const std::vector<double>* source[property_count - 1] = {
+        &e.length, &e.EA, &e.EI, &e.axial_damping, &e.mass, &e.weight, &e.drag_normal, &e.drag_tangential, &e.added_normal, &e.added_tangential};
+    SweepLine panel{};
+    for (int k = 0; k < property_count; ++k) {
+      std::fill_n(property_[k], observed_stride, k == 0 ? 1.0 : 0.0);
+      if (k + 1 < property_count) std::copy_n(source[k]->data() + l.first_element + first, count, property_[k]);
+      panel.property[k] = property_[k];
+    }
+    const std::size_t dof = model.dof(line, first);
+    panel.elements = count;
+    panel.q = state.q.data() + dof;
+    panel.v = state.v.data() + dof;
+    panel.a = state.a.data() + dof;
+    panel.current = current_table(model);
+    widest_sweep_table().observe[sweep_family(static_cast<int>(l.family), model.wet)](panel, row_[0]);
+  }
+
+  Observed<double> at(int i) const { return {{row_[0][i], row_[1][i]}, {row_[2][i], row_[3][i]}, {row_[4][i], row_[5][i], row_[6][i]}}; }
+
+ private:
+  alignas(64) double property_[property_count][observed_stride];
+  alignas(64) double row_[observed_rows][observed_stride];
+};
+
+void note(const Line& l, int i, double length, const Observed<double>& seen, LineResult& out) {
+  out.tension_right[i] = seen.tension[0];
+  out.tension_left[i + 1] = seen.tension[1];
+  for (int end = 0; end < 2; ++end) out.curvature[i + end] = std::max(out.curvature[i + end], seen.curvature[end]);
+  double least = seen.strain_tension[0];
+  for (int k = 0; k < 3; ++k) {
+    least = std::min(least, seen.strain_tension[k]);
+    if (seen.strain_tension[k] < out.least_strain_tension) {
+      out.least_strain_tension = seen.strain_tension[k];
+      out.least_strain_tension_s = l.s[i] + 0.5 * k * length;
     }
   }
-  if (least < 0.0) out.compressed_length += e.length;
-  if (i == 0) {
-    out.force_from = f.left;
-    out.moment_from = end_moment(e.q.slope(0.0), f.slope_left);
-  }
-  if (i + 1 == l.elements) {
-    out.force_to = -f.right;
-    out.moment_to = end_moment(e.q.slope(1.0), f.slope_right);
-  }
+  if (least < 0.0) out.compressed_length += length;
+}
+
+/// Where a slope jumps, a load is spread or the bed carries, the packs do not see everything.
+void correct(const Model& model, const State& state, int line, int i, Observed<double>& seen) {
+  const int element = model.lines[line].first_element + i;
+  const bool spread = std::any_of(model.spread_loads.begin(), model.spread_loads.end(), [&](const SpreadLoad& s) { return s.element == element; });
+  if (!spread && !model.seabed && !joint_of(model, element)) return;
+  seen = observe_element(model, state, line, element);
+}
+
+void observe_ends(const Model& model, const State& state, int line, LineResult& out) {
+  const Line& l = model.lines[line];
+  const auto slope = [&](int element, double xi) { return view(model, state, line, element).q.slope(xi); };
+  const int last = l.first_element + l.elements - 1;
+  const EndForces from = end_forces(model, state, line, l.first_element), to = end_forces(model, state, line, last);
+  out.force_from = from.left;
+  out.moment_from = end_moment(slope(l.first_element, 0.0), from.slope_left);
+  out.force_to = -to.right;
+  out.moment_to = end_moment(slope(last, 1.0), to.slope_right);
+  out.tension_from = out.force_from.norm();
+  out.tension_to = out.force_to.norm();
 }
 
 }  // namespace
@@ -151,11 +185,18 @@ LineResult observe_line(const Model& model, const State& state, int line) {
   out.tension_right.assign(l.nodes, 0.0);
   out.curvature.assign(l.nodes, 0.0);
   out.least_strain_tension = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < l.elements; ++i) observe_element(model, state, line, i, out);
+  for (int first = 0; first < l.elements; first += panel_elements) {
+    const int count = std::min(panel_elements, l.elements - first);
+    const ObservedPanel panel(model, state, line, first, count);
+    for (int k = 0; k < count; ++k) {
+      Observed<double> seen = panel.at(k);
+      correct(model, state, line, first + k, seen);
+      note(l, first + k, model.element.length[l.first_element + first + k], seen, out);
+    }
+  }
+  observe_ends(model, state, line, out);
   out.tension_left.front() = out.tension_right.front();
   out.tension_right.back() = out.tension_left.back();
-  out.tension_from = out.force_from.norm();
-  out.tension_to = out.force_to.norm();
   out.tension_max = std::max(*std::max_element(out.tension_left.begin(), out.tension_left.end()),
                              *std::max_element(out.tension_right.begin(), out.tension_right.end()));
   out.tension_min = std::min(*std::min_element(out.tension_left.begin(), out.tension_left.end()),

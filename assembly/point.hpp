@@ -64,7 +64,7 @@ enum class Want { force, tangent };
 
 template <class S>
 HAWSER_INLINE void set_tangent(Point<S>& p) {
-  p.inverse_length = S(1.0) / square_root(dot(p.a, p.a));
+  p.inverse_length = inverse_square_root(dot(p.a, p.a));
   p.t = p.inverse_length * p.a;
 }
 

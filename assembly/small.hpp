@@ -109,4 +109,10 @@ HAWSER_INLINE double minimum(double a, double b) { return a < b ? a : b; }
 HAWSER_INLINE double square_root(double a) { return __builtin_sqrt(a); }
 HAWSER_INLINE double magnitude(double a) { return __builtin_fabs(a); }
 
+/// 1/sqrt(a). Packs with a fast estimate of it bring their own.
+template <class S>
+HAWSER_INLINE S inverse_square_root(const S& a) {
+  return S(1.0) / square_root(a);
+}
+
 }  // namespace hawser

@@ -19,6 +19,8 @@ struct TangentWeights {
   double stiffness = 1.0;
   double damping = 0.0;
   double mass = 0.0;
+
+  bool operator==(const TangentWeights&) const = default;
 };
 
 /// Globalisation of the tangent (theory 7.2); the residual never changes.
@@ -26,6 +28,8 @@ struct TangentFloor {
   double tension = 0.0;       // N: least tension used in the geometric stiffness; 0 with use = false: exact matrix
   bool use_minimum = false;   // keep Model::minimum_tension of each element where the tension itself vanishes
   bool gauss_newton = false;  // bending by its positive semidefinite part
+
+  bool operator==(const TangentFloor&) const = default;
 };
 
 }  // namespace hawser

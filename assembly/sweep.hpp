@@ -7,6 +7,7 @@
 #pragma once
 
 #include "assembly/kernel.hpp"
+#include "assembly/observed.hpp"
 
 namespace hawser {
 
@@ -30,16 +31,24 @@ struct SweepLine {
 
 using SweepFunction = void (*)(const SweepLine&, int panel);
 
-/// Families in this order; each with the residual alone and with the tangent.
-enum class SweepFamily { bar_dry, bar_wet, cable_dry, cable_wet, beam_dry, beam_wet };
+/// Rows of Observed (observed.hpp) of one panel's elements; lanes beyond the last element hold nothing of use.
+inline constexpr int observed_stride = panel_elements + table_padding;
+using ObserveFunction = void (*)(const SweepLine& panel, double* rows);
+
+/// Families in this order: bar, cable, beam, each dry and wet.
 inline constexpr int sweep_families = 6;
+constexpr int sweep_family(int family, bool wet) { return 2 * family + (wet ? 1 : 0); }
 
 struct SweepTable {
   const char* instruction_set;
   int width;
   SweepFunction force[sweep_families];
   SweepFunction tangent[sweep_families];
+  ObserveFunction observe[sweep_families];
 };
+
+/// The widest instruction set of this processor; HAWSER_SIMD=base|avx2 forces a narrower one.
+const SweepTable& widest_sweep_table();
 
 namespace base {
 extern const SweepTable sweep_table;

@@ -14,14 +14,31 @@ struct PanelState {
   alignas(64) double x[3][B][panel_nodes];  // q, v, a
 
   HAWSER_INLINE void gather(const SweepLine& line, int first, int nodes) {
-    const double* source[3] = {line.q, line.v, line.a};
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < nodes; ++i)
-        for (int c = 0; c < B; ++c) x[k][c][i] = source[k][B * (first + i) + c];
+    const double* source[3] = {line.q + B * first, line.v + B * first, line.a + B * first};
+    const int whole = B == 6 ? nodes / 4 * 4 : 0;
+    for (int k = 0; k < 3; ++k) {
+      if constexpr (B == 6)
+        for (int i = 0; i < whole; i += 4) gather_four(source[k] + B * i, &x[k][0][i]);
+      for (int i = whole; i < nodes; ++i)
+        for (int c = 0; c < B; ++c) x[k][c][i] = source[k][B * i + c];
+    }
     // Lanes beyond the panel repeat its last node shifted by one: finite numbers that nobody reads.
     for (int k = 0; k < 3; ++k)
       for (int c = 0; c < B; ++c)
         for (int i = nodes; i < nodes + table_padding; ++i) x[k][c][i] = x[k][c][nodes - 1] + (k == 0 && c < 3 ? double(i) : 0.0);
+  }
+
+  /// Six rows of four nodes.
+  HAWSER_INLINE static void gather_four(const double* from, double* to) {
+#if defined(__AVX__)
+    copy_transposed<4>(from, 6, to, panel_nodes);
+#else
+    for (int part : {0, 2}) {
+      copy_transposed<2>(from + 6 * part, 6, to + part, panel_nodes);
+      copy_transposed<2>(from + 6 * part + 2, 6, to + 2 * panel_nodes + part, panel_nodes);
+    }
+#endif
+    for (int part : {0, 2}) copy_transposed<2>(from + 6 * part + 4, 6, to + 4 * panel_nodes + part, panel_nodes);
   }
 
   template <int W>
@@ -110,18 +127,16 @@ HAWSER_INLINE void fill_rows(const Integrand<Family, Pack<W>>& in, const NodalAx
 /// node. Whole cache lines would straddle the nodes, whose blocks are an odd number of half lines long.
 template <int count, int W>
 HAWSER_INLINE void store_transposed(const Pack<W>* rows, double* to, int lanes) {
-  constexpr int tile = W < 4 ? W : 4, whole = count / tile * tile;
+  constexpr int tile = W < 4 ? W : 4, whole = count / tile * tile, pairs = count / 2 * 2;
+  const double* from = reinterpret_cast<const double*>(rows);
   if (lanes == W) {
 #pragma GCC unroll 1
     for (int t = 0; t < whole; t += tile)
-      static_for<W / tile>([&](auto part) __attribute__((always_inline)) {
-        Pack<tile> of[tile];
-        for (int k = 0; k < tile; ++k) of[k] = Pack<tile>::load(reinterpret_cast<const double*>(&rows[t + k]) + tile * part);
-        transpose<tile>(of);
-        for (int k = 0; k < tile; ++k) of[k].store(to + static_cast<long>(count) * (tile * part + k) + t);
-      });
+      for (int lane = 0; lane < W; lane += tile) copy_transposed<tile>(from + W * t + lane, W, to + static_cast<long>(count) * lane + t, count);
+    for (int t = whole; t < pairs; t += 2)
+      for (int lane = 0; lane < W; lane += 2) copy_transposed<2>(from + W * t + lane, W, to + static_cast<long>(count) * lane + t, count);
   }
-  for (int t = lanes == W ? whole : 0; t < count; ++t)
+  for (int t = lanes == W ? pairs : 0; t < count; ++t)
     for (int k = 0; k < lanes; ++k) to[static_cast<long>(count) * k + t] = rows[t].v[k];
 }
 
@@ -166,7 +181,8 @@ void sweep_panel(const SweepLine& line, int panel) {
   if constexpr (B == 6) axial.compute<want, W>(line, state, first, count + 1);
   Running<B, W> before;
   for (S& x : before.f) x = S(0.0);
-  for (S& x : before.K) x = S(0.0);
+  if constexpr (want == Want::tangent)
+    for (S& x : before.K) x = S(0.0);
   int lanes = W;
   for (int e = 0; e < count; e += W) {
     lanes = count - e < W ? count - e : W;
@@ -193,6 +209,21 @@ void sweep_panel(const SweepLine& line, int panel) {
   }
 }
 
+template <class Family, int W>
+void observe_panel(const SweepLine& line, double* rows) {
+  using S = Pack<W>;
+  PanelState<3 * Family::Shape::node_vectors> state;
+  state.gather(line, 0, line.elements + 1);
+  for (int e = 0; e < line.elements; e += W) {
+    const ElementState<S> x{state.template nodal<W>(0, e), state.template nodal<W>(1, e), state.template nodal<W>(2, e)};
+    Observed<S> seen;
+    observe<Family>(x, load_properties<W>(line, e), line.current, seen);
+    const S row[observed_rows] = {seen.tension[0],        seen.tension[1],        seen.curvature[0],     seen.curvature[1],
+                                  seen.strain_tension[0], seen.strain_tension[1], seen.strain_tension[2]};
+    for (int k = 0; k < observed_rows; ++k) row[k].store(rows + k * observed_stride + e);
+  }
+}
+
 template <int W>
 constexpr SweepTable make_sweep_table(const char* name) {
   return {name,
@@ -200,7 +231,9 @@ constexpr SweepTable make_sweep_table(const char* name) {
           {sweep_panel<BarDry, Want::force, W>, sweep_panel<BarWet, Want::force, W>, sweep_panel<CableDry, Want::force, W>,
            sweep_panel<CableWet, Want::force, W>, sweep_panel<BeamDry, Want::force, W>, sweep_panel<BeamWet, Want::force, W>},
           {sweep_panel<BarDry, Want::tangent, W>, sweep_panel<BarWet, Want::tangent, W>, sweep_panel<CableDry, Want::tangent, W>,
-           sweep_panel<CableWet, Want::tangent, W>, sweep_panel<BeamDry, Want::tangent, W>, sweep_panel<BeamWet, Want::tangent, W>}};
+           sweep_panel<CableWet, Want::tangent, W>, sweep_panel<BeamDry, Want::tangent, W>, sweep_panel<BeamWet, Want::tangent, W>},
+          {observe_panel<BarDry, W>, observe_panel<BarWet, W>, observe_panel<CableDry, W>, observe_panel<CableWet, W>, observe_panel<BeamDry, W>,
+           observe_panel<BeamWet, W>}};
 }
 
 }  // namespace hawser

@@ -12,19 +12,19 @@ using ConstVec3 = Eigen::Map<const Vec3>;
 /// The larger one, or the one that is not a number: nobody may take that for convergence.
 double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
 
-/// Calls f(line, node, |r part|, |r' part|, l) for every node, and for every joint with its inner unknowns as the r' part.
+/// Calls f(line, node, |r part|^2, |r' part|^2, l) for every node, and for every joint with its inner unknowns as the r' part. Squares: a
+/// root at every node would cost more than all the rest.
 template <class Function>
 void for_each_node(const Model& model, std::span<const double> x, Function f) {
   for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
     const Chain& chain = model.chain(line);
-    for (int node = 0; node < chain.nodes; ++node) {
-      const double* part = &x[chain.dof(node)];
-      const double slope = chain.block == 3 ? 0.0 : ConstVec3(part + 3).norm();
-      f(line, node, ConstVec3(part).norm(), slope, model.node_length[model.lines[line].first_node + node]);
-    }
+    const double* length = &model.node_length[model.lines[line].first_node];
+    const double* p = &x[chain.first_dof];
+    for (int node = 0; node < chain.nodes; ++node, p += chain.block)
+      f(line, node, p[0] * p[0] + p[1] * p[1] + p[2] * p[2], chain.block == 3 ? 0.0 : p[3] * p[3] + p[4] * p[4] + p[5] * p[5], length[node]);
   }
   for (const Joint& joint : model.joints) {
-    const double slope = Eigen::Map<const Eigen::VectorXd>(&x[joint.inner], joint.inner_count()).norm();
+    const double slope = Eigen::Map<const Eigen::VectorXd>(&x[joint.inner], joint.inner_count()).squaredNorm();
     f(joint.line, joint.node, 0.0, slope, model.node_length[model.lines[joint.line].first_node + joint.node]);
   }
 }
@@ -33,27 +33,27 @@ void for_each_node(const Model& model, std::span<const double> x, Function f) {
 
 WorstNode worst_node(const Model& model, std::span<const double> r) {
   WorstNode worst;
+  double largest = 0.0;
   for_each_node(model, r, [&](int line, int node, double force, double moment, double l) {
-    const double value = larger(force, moment / l);
-    if (value > worst.residual || (std::isnan(value) && !std::isnan(worst.residual))) worst = {line, node, value, moment / l > force};
+    const double as_force = moment / (l * l), value = larger(force, as_force);
+    if (!(value > largest || (std::isnan(value) && !std::isnan(largest)))) return;
+    largest = value;
+    worst = {line, node, 0.0, as_force > force};
   });
+  worst.residual = std::sqrt(largest);
   return worst;
 }
 
-double residual_norm(const Model& model, std::span<const double> r) {
-  double norm = 0.0;
-  for_each_node(model, r, [&](int, int, double force, double moment, double l) { norm = larger(larger(force, moment / l), norm); });
-  return norm;
-}
+double residual_norm(const Model& model, std::span<const double> r) { return worst_node(model, r).residual; }
 
 IncrementSize increment_size(const Model& model, std::span<const double> d) {
-  IncrementSize size;
-  for_each_node(model, d, [&](int, int, double position, double slope, double l) {
-    size.position = larger(position, size.position);
-    size.slope = larger(slope, size.slope);
-    size.scaled = larger(larger(position, l * slope), size.scaled);
+  double position = 0.0, slope = 0.0, as_position = 0.0;
+  for_each_node(model, d, [&](int, int, double r, double s, double l) {
+    position = larger(r, position);
+    slope = larger(s, slope);
+    as_position = larger(l * l * s, as_position);
   });
-  return size;
+  return {std::sqrt(position), std::sqrt(slope), std::sqrt(larger(position, as_position))};
 }
 
 double largest_nodal_load(const Model& model) {

@@ -29,7 +29,7 @@ class Run {
   Run(const Assembler& assembler, const SimulateOptions& options, State& state)
       : options_(options),
         system_(assembler),
-        solver_(make_linear_solver(options.linear_solver)),
+        solver_(make_linear_solver(options.linear_solver, assembler.threads())),
         scheme_(system_, *solver_, step_options(options)),
         control_(options.max_halvings),
         state_(state) {

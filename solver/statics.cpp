@@ -76,7 +76,7 @@ class StaticSolver {
         options_(options),
         state_(state),
         report_(report),
-        linear_(make_linear_solver(options.linear_solver)),
+        linear_(make_linear_solver(options.linear_solver, options.threads)),
         floor_(starting_floor(model_)),
         limp_(*std::min_element(model_.element.EI.begin(), model_.element.EI.end()) == 0.0),
         tolerance_(options.tolerance) {

@@ -14,8 +14,8 @@ struct Axial {
   template <Want want, class S>
   HAWSER_INLINE static void evaluate(const V3<S>& slope, const V3<S>& slope_dot, const Properties<S>& e, const Weights& w, V3<S>& F, M3<S>& J) {
     const S square = dot(slope, slope);
-    const S stretch = square_root(square);
-    const S inverse = S(1.0) / stretch;
+    const S inverse = inverse_square_root(square);
+    const S stretch = square * inverse;
     const V3<S> t = inverse * slope;
     // |r'| - 1 loses digits to cancellation where the strain is small; (r'.r' - 1)/(|r'| + 1) does not.
     const S tension = e.EA * ((square - S(1.0)) / (stretch + S(1.0)));

@@ -4,7 +4,7 @@
 //   phi = kn mu n + kt |sigma| sigma t                           (external force: the residual takes -phi)
 //   phi_w = kn (mu P + n n^T/mu) + 2 kt |sigma| t t^T            phi_v = -phi_w,  phi_r = phi_w du/dz e_z^T
 //   phi_a = 1/|a| { -kn [sigma (mu P + n n^T/mu) + mu t n^T] + kt |sigma| [2 t n^T + sigma P] }
-// n n^T/mu -> 0 with mu: below 1e-12 m/s it is taken as zero. Points: three Gauss points.
+// n n^T/mu -> 0 with mu: below 1e-12 m/s both are taken as zero. Points: three Gauss points.
 #pragma once
 
 #include "assembly/point.hpp"
@@ -17,14 +17,16 @@ struct Drag {
     const V3<S> flow = p.current - p.velocity;
     const S sigma = dot(flow, p.t);
     const V3<S> normal = flow - sigma * p.t;
-    const S mu = square_root(dot(normal, normal));
+    const S square = dot(normal, normal);
+    const S inverse_mu = select(square > S(1.0e-24), inverse_square_root(square), S(0.0));
+    const S mu = square * inverse_mu;
     const S normal_force = e.drag_normal * mu;
     const S tangential_force = e.drag_tangential * magnitude(sigma);
     out.n = normal;
     out.F_n = out.F_n - normal_force;
     out.F_t = out.F_t - tangential_force * sigma;
     if constexpr (want == Want::tangent) {
-      const S ring = e.drag_normal * select(mu > S(1.0e-12), S(1.0) / mu, S(0.0));
+      const S ring = e.drag_normal * inverse_mu;
       // phi_w = normal_force I + ring n n^T + along t t^T
       const S along = S(2.0) * tangential_force - normal_force;
       const S c(w.c);

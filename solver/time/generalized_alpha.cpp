@@ -1,8 +1,10 @@
 #include "solver/time/generalized_alpha.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace hawser {
@@ -11,11 +13,21 @@ namespace {
 // Newton converges quadratically: the residual that passes this test is usually far below it.
 constexpr double automatic_tolerance = 1.0e-8;
 
+using Array = Eigen::Map<Eigen::ArrayXd>;
+using ConstArray = Eigen::Map<const Eigen::ArrayXd>;
+
+Array array(std::vector<double>& x) { return {x.data(), static_cast<Eigen::Index>(x.size())}; }
+ConstArray array(const std::vector<double>& x) { return {x.data(), static_cast<Eigen::Index>(x.size())}; }
+
 constexpr double largest_turn_of_iteration = 0.5;  // theory 6.3
 
 // A slack line has many solutions at the end of a long step, most of them with elements flipped over. Newton may find any
 // of them; one that turns further than this in one step is not believed.
 constexpr double largest_turn_of_step = 0.5;
+
+// A tangent and its factors cost about as much as three iterations with old factors.
+constexpr int iterations_worth_factors = 3;
+constexpr int longest_pause = 32;  // steps
 
 // The floor of theory 6.1 is an estimate: a residual this close above it that no longer falls is at the floor.
 constexpr double floor_margin = 10.0;
@@ -44,6 +56,7 @@ GeneralizedAlpha::GeneralizedAlpha(const System& system, LinearSolver& solver, c
       tangent_(system.make_tangent()),
       auxiliary_(system.unknowns()),
       rebased_(system.unknowns()),
+      change_(system.unknowns()),
       residual_(system.unknowns()),
       increment_(system.unknowns()),
       condensed_(system.dofs()),
@@ -74,6 +87,7 @@ StepReport GeneralizedAlpha::start(State& state) {
   state = trial_;
   auxiliary_ = state.a;
   rebased_ = state.a;
+  std::fill(change_.begin(), change_.end(), 0.0);
   last_step_ = 0.0;
   return report;
 }
@@ -84,7 +98,7 @@ StepReport GeneralizedAlpha::step(State& state, double t, double h, const Tangen
   predict(state, t, h);
   follow_prescribed(weights);
   StepReport report;
-  report.status = iterate(weights, floor, system_.roundoff_floor(state), report);
+  report.status = iterate(state, weights, floor, report);
   if (report.status == StepStatus::ok && turned_too_far(state)) {
     report.status = StepStatus::not_converged;
   }
@@ -95,12 +109,24 @@ StepReport GeneralizedAlpha::step(State& state, double t, double h, const Tangen
   return report;
 }
 
-/// Newton from the predicted state. The same factors once more contract the residual about as much as the last iteration
-/// did: where that is enough they are kept.
-StepStatus GeneralizedAlpha::iterate(const TangentWeights& weights, const TangentFloor& floor, double floor_force, StepReport& report) {
+/// Newton from the predicted state. Factors serve again, those of an earlier step too, where the contraction just observed says that this
+/// finishes the step for less than new ones cost. An iteration with old factors that gained nothing is taken back.
+StepStatus GeneralizedAlpha::iterate(const State& state, const TangentWeights& weights, const TangentFloor& floor, StepReport& report) {
+  // Rounding is looked at only where the tolerance is not met: it takes a pass over the elements.
+  std::optional<double> rounding;
+  const auto floor_force = [&] {
+    if (!rounding) {
+      rounding = system_.roundoff_floor(state);
+    }
+    return *rounding;
+  };
   const double wanted_length = tolerance_ * system_.reference_length();
+  bool keep = old_factors_serve(weights, floor), old = keep;
   double previous = INFINITY;
-  bool keep = false;
+  if (old) {
+    evaluate(report);
+    previous = measure(report).force;
+  }
   while (report.iterations < allowed_iterations(report)) {
     if (!keep) {
       const StepStatus status = linearize(weights, floor, report);
@@ -111,36 +137,62 @@ StepStatus GeneralizedAlpha::iterate(const TangentWeights& weights, const Tangen
     }
     solve();
     ++report.iterations;
-    const bool whole = update(weights);
-    system_.residual(trial_, residual_);
-    ++report.residuals;
+    const auto [increment, turn] = system_.measure_increment(increment_);
+    const double taken = turn > largest_turn_of_iteration ? largest_turn_of_iteration / turn : 1.0;
+    const bool whole = taken == 1.0;
+    move(taken, weights);
+    evaluate(report);
     const auto [force, reference] = measure(report);
-    if (!std::isfinite(force)) {
+    if (!std::isfinite(force) && !old) {
       return StepStatus::not_finite;
     }
-    const double wanted_force = std::max(tolerance_ * reference, floor_force);
-    const bool small = force <= wanted_force && system_.scaled_increment(increment_) <= wanted_length;
-    const bool at_floor = force <= floor_margin * floor_force && force > 0.5 * previous;
+    const double wanted_force = force <= tolerance_ * reference ? tolerance_ * reference : std::max(tolerance_ * reference, floor_force());
+    const bool small = force <= wanted_force && increment <= wanted_length;
+    const bool at_floor = force > 0.5 * previous && force <= floor_margin * floor_force();
     if (whole && (small || at_floor)) {
+      if (old) {
+        factors_.failures = 0;
+      }
       return StepStatus::ok;
     }
-    keep = whole && force < previous && force * (force / previous) <= wanted_force;
+    const int more = old ? iterations_worth_factors - report.iterations : 1;
+    keep = whole && force < previous && more > 0 && force * std::pow(force / previous, more) <= wanted_force;
+    if (old && !keep) {
+      give_up_old_factors();
+      if (!(force < previous)) {
+        move(-taken, weights);
+      }
+      old = false;
+    }
     previous = force;
   }
   return StepStatus::not_converged;
 }
 
-/// Adds the increment, or as much of it as may be taken at once: true where that is all of it.
-bool GeneralizedAlpha::update(const TangentWeights& weights) {
-  const double turn = system_.largest_turn(increment_);
-  const double factor = turn > largest_turn_of_iteration ? largest_turn_of_iteration / turn : 1.0;
-  for (std::size_t i = 0; i < increment_.size(); ++i) {
-    const double d = factor * increment_[i];
-    trial_.q[i] += d;
-    trial_.v[i] += weights.damping * d;
-    trial_.a[i] += weights.mass * d;
+/// The factors in hand are of an earlier step with the same weights, and worth trying.
+bool GeneralizedAlpha::old_factors_serve(const TangentWeights& weights, const TangentFloor& floor) {
+  if (!factors_.valid || !(factors_.weights == weights) || !(factors_.floor == floor)) {
+    return false;
   }
-  return factor == 1.0;
+  if (factors_.pause > 0) {
+    --factors_.pause;
+    return false;
+  }
+  return true;
+}
+
+/// Motions that change the tangent from step to step soon stop paying for attempts.
+void GeneralizedAlpha::give_up_old_factors() {
+  factors_.pause = std::min((1 << factors_.failures) - 1, longest_pause);
+  factors_.failures = std::min(factors_.failures + 1, 6);
+}
+
+/// Adds a share of the increment.
+void GeneralizedAlpha::move(double factor, const TangentWeights& weights) {
+  const auto d = array(increment_);
+  array(trial_.q) += factor * d;
+  array(trial_.v) += factor * weights.damping * d;
+  array(trial_.a) += factor * weights.mass * d;
 }
 
 int GeneralizedAlpha::allowed_iterations(const StepReport& report) const {
@@ -149,25 +201,24 @@ int GeneralizedAlpha::allowed_iterations(const StepReport& report) const {
 
 double GeneralizedAlpha::local_error() {
   const double scale = alpha_.error_constant() * last_step_ * last_step_;
-  for (std::size_t i = 0; i < increment_.size(); ++i) {
-    increment_[i] = scale * (auxiliary_[i] - rebased_[i]);
-  }
-  return system_.scaled_increment(increment_);
+  array(increment_) = scale * (array(auxiliary_) - array(rebased_));
+  return system_.measure_increment(increment_).scaled;
 }
 
 /// The trial state with the old acceleration at the new time, which takes fewer iterations than a zero one (README.md),
 /// and a_n moved to the new step.
 void GeneralizedAlpha::predict(const State& state, double t, double h) {
   const double ratio = last_step_ > 0.0 ? h / last_step_ : 1.0;
+  const double next = 1.0 / (1.0 - alpha_.alpha_m);
+  const ConstArray q = array(state.q), v = array(state.v), qdd = array(state.a);
+  Array a = array(rebased_);
   trial_.t = t;
-  for (std::size_t i = 0; i < rebased_.size(); ++i) {
-    const double a = state.a[i] + ratio * (auxiliary_[i] - state.a[i]);
-    const double a_new = (state.a[i] - alpha_.alpha_m * a) / (1.0 - alpha_.alpha_m);
-    rebased_[i] = a;
-    trial_.q[i] = state.q[i] + h * (state.v[i] + h * ((0.5 - alpha_.beta) * a + alpha_.beta * a_new));
-    trial_.v[i] = state.v[i] + h * ((1.0 - alpha_.gamma) * a + alpha_.gamma * a_new);
-    trial_.a[i] = state.a[i];
-  }
+  a = qdd + ratio * (array(auxiliary_) - qdd);
+  array(trial_.a) = qdd + ratio * array(change_);
+  // The auxiliary acceleration that belongs to it.
+  array(increment_) = next * ((1.0 - alpha_.alpha_f) * array(trial_.a) + alpha_.alpha_f * qdd - alpha_.alpha_m * a);
+  array(trial_.q) = q + h * v + h * h * ((0.5 - alpha_.beta) * a + alpha_.beta * array(increment_));
+  array(trial_.v) = v + h * ((1.0 - alpha_.gamma) * a + alpha_.gamma * array(increment_));
 }
 
 /// Puts the prescribed positions in and corrects velocity and acceleration as a Newton increment would.
@@ -187,6 +238,7 @@ void GeneralizedAlpha::follow_prescribed(const TangentWeights& weights) {
 /// Residual, tangent and its factors at the trial state. A solver that refuses an unsymmetric matrix gets the symmetric
 /// part: Newton is then a modified one.
 StepStatus GeneralizedAlpha::linearize(const TangentWeights& weights, const TangentFloor& floor, StepReport& report) {
+  factors_.valid = false;
   system_.tangent(trial_, weights, floor, residual_, tangent_);
   ++report.residuals;
   ++report.factorizations;
@@ -201,7 +253,15 @@ StepStatus GeneralizedAlpha::linearize(const TangentWeights& weights, const Tang
     report.worst = factors.failed_unknown;
     return StepStatus::singular;
   }
+  factors_.valid = !report.modified_newton;
+  factors_.weights = weights;
+  factors_.floor = floor;
   return StepStatus::ok;
+}
+
+void GeneralizedAlpha::evaluate(StepReport& report) {
+  system_.residual(trial_, residual_);
+  ++report.residuals;
 }
 
 /// increment_ from residual_ with the factors in hand.
@@ -223,17 +283,14 @@ GeneralizedAlpha::Measure GeneralizedAlpha::measure(StepReport& report) {
 
 /// The trial state against the old one.
 bool GeneralizedAlpha::turned_too_far(const State& state) {
-  for (std::size_t i = 0; i < increment_.size(); ++i) {
-    increment_[i] = trial_.q[i] - state.q[i];
-  }
-  return system_.largest_turn(increment_) > largest_turn_of_step;
+  array(increment_) = array(trial_.q) - array(state.q);
+  return system_.measure_increment(increment_).turn > largest_turn_of_step;
 }
 
 void GeneralizedAlpha::accept(State& state, double h) {
-  for (std::size_t i = 0; i < auxiliary_.size(); ++i) {
-    const double forces = (1.0 - alpha_.alpha_f) * trial_.a[i] + alpha_.alpha_f * state.a[i];
-    auxiliary_[i] = (forces - alpha_.alpha_m * rebased_[i]) / (1.0 - alpha_.alpha_m);
-  }
+  const double next = 1.0 / (1.0 - alpha_.alpha_m);
+  array(auxiliary_) = next * ((1.0 - alpha_.alpha_f) * array(trial_.a) + alpha_.alpha_f * array(state.a) - alpha_.alpha_m * array(rebased_));
+  array(change_) = array(trial_.a) - array(state.a);
   std::swap(state, trial_);
   last_step_ = h;
 }

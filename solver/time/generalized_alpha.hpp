@@ -76,12 +76,24 @@ class GeneralizedAlpha {
     double force, reference;  // N
   };
 
+  /// What the solver's factors were made for, and how they have served in later steps.
+  struct Factors {
+    bool valid = false;
+    TangentWeights weights;
+    TangentFloor floor;
+    int pause = 0;     // steps for which old factors are not tried
+    int failures = 0;  // attempts with old factors in a row that had to be given up
+  };
+
   void predict(const State& state, double t, double h);
   void follow_prescribed(const TangentWeights& weights);
-  StepStatus iterate(const TangentWeights& weights, const TangentFloor& floor, double floor_force, StepReport& report);
+  StepStatus iterate(const State& state, const TangentWeights& weights, const TangentFloor& floor, StepReport& report);
+  bool old_factors_serve(const TangentWeights& weights, const TangentFloor& floor);
+  void give_up_old_factors();
+  void evaluate(StepReport& report);
   StepStatus linearize(const TangentWeights& weights, const TangentFloor& floor, StepReport& report);
   void solve();
-  bool update(const TangentWeights& weights);
+  void move(double factor, const TangentWeights& weights);
   Measure measure(StepReport& report);
   int allowed_iterations(const StepReport& report) const;
   bool turned_too_far(const State& state);
@@ -93,9 +105,11 @@ class GeneralizedAlpha {
   AlphaCoefficients alpha_;
   double tolerance_;
   double last_step_ = 0.0;  // s; 0 before the first
+  Factors factors_;
   Tangent tangent_;
   State trial_;
   std::vector<double> auxiliary_, rebased_;  // a_{n+1} after a step; a_n as the step in progress sees it
+  std::vector<double> change_;               // of qdd in the last accepted step
   std::vector<double> residual_, increment_, condensed_;
   std::vector<std::array<double, 3>> predicted_;  // position, velocity, acceleration of the prescribed unknowns
 };

@@ -24,10 +24,9 @@ ScaledResidual LineSystem::scaled_residual(std::span<const double> r) const {
   return {worst.residual, model_.dof(worst.line, worst.node)};
 }
 
-double LineSystem::scaled_increment(std::span<const double> d) const { return increment_size(model_, d).scaled; }
-
-double LineSystem::largest_turn(std::span<const double> d) const {
-  double turn = increment_size(model_, d).slope;
+IncrementMeasure LineSystem::measure_increment(std::span<const double> d) const {
+  const IncrementSize size = increment_size(model_, d);
+  double turn = size.slope;
   for (const Line& line : model_.lines) {
     if (line.family != Family::bar) {
       continue;
@@ -38,7 +37,7 @@ double LineSystem::largest_turn(std::span<const double> d) const {
       turn = std::max(turn, (right - left).norm() / model_.element.length[line.first_element + i]);
     }
   }
-  return turn;
+  return {size.scaled, turn};
 }
 
 double LineSystem::reference_force(std::span<const double> r) const {

@@ -27,8 +27,7 @@ class LineSystem : public System {
   std::span<const std::size_t> prescribed() const override { return prescribed_; }
   void prescribe(State& state) const override { model_.prescribe(state); }
   ScaledResidual scaled_residual(std::span<const double> r) const override;
-  double scaled_increment(std::span<const double> d) const override;
-  double largest_turn(std::span<const double> d) const override;
+  IncrementMeasure measure_increment(std::span<const double> d) const override;
   double reference_length() const override { return reference_length_; }
   double reference_force(std::span<const double> r) const override;
   double roundoff_floor(const State& state) const override;

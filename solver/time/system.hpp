@@ -20,6 +20,12 @@ struct ScaledResidual {
   std::size_t unknown = 0;  // of the largest entry
 };
 
+/// An increment in the scaled norm of theory 6.1, and the largest rotation or stretch in it: |d_r'|, between the nodes of a bar |d_r1 - d_r0|/l.
+struct IncrementMeasure {
+  double scaled = 0.0;  // m
+  double turn = 0.0;    // -
+};
+
 class System {
  public:
   virtual ~System() = default;
@@ -42,12 +48,9 @@ class System {
   /// Writes position, velocity and acceleration of the prescribed unknowns at state.t.
   virtual void prescribe(State& state) const = 0;
 
-  /// Norms of theory 6.1: residual [N] after project(), increment [m].
+  /// Norms of theory 6.1: residual [N] after project(), increment.
   virtual ScaledResidual scaled_residual(std::span<const double> r) const = 0;
-  virtual double scaled_increment(std::span<const double> d) const = 0;
-
-  /// The largest rotation or stretch in an increment [-]: |d_r'|, between the nodes of a bar |d_r1 - d_r0|/l.
-  virtual double largest_turn(std::span<const double> d) const = 0;
+  virtual IncrementMeasure measure_increment(std::span<const double> d) const = 0;
 
   /// What residual [N] and increment [m] are compared with; the residual as it is before project().
   virtual double reference_force(std::span<const double> r) const = 0;

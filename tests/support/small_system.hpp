@@ -141,14 +141,13 @@ class SmallSystem : public System {
     }
     return largest;
   }
-  double scaled_increment(std::span<const double> d) const override {
+  IncrementMeasure measure_increment(std::span<const double> d) const override {
     double largest = 0.0;
     for (const double x : d) {
       largest = std::max(largest, std::abs(x));
     }
-    return largest;
+    return {largest, 0.0};
   }
-  double largest_turn(std::span<const double>) const override { return 0.0; }
   double reference_length() const override { return Problem::length; }
   double reference_force(std::span<const double>) const override { return Problem::force; }
   double roundoff_floor(const State&) const override { return 4e-16 * Problem::force; }

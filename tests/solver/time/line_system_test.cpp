@@ -55,11 +55,11 @@ TEST(LineSystem, TurnOfABarIsThatOfItsChord) {
   const Assembler bar_assembler(bar), cable_assembler(cable);
   std::vector<double> d(bar.unknowns, 0.0);
   d[bar.dof(0, 2)] = 2.0;  // the end moves 2 m beside a node that stays
-  EXPECT_DOUBLE_EQ(LineSystem(bar_assembler).largest_turn(d), 0.2);
+  EXPECT_DOUBLE_EQ(LineSystem(bar_assembler).measure_increment(d).turn, 0.2);
   d.assign(cable.unknowns, 0.0);
   d[cable.dof(0, 2)] = 2.0;
   d[cable.dof(0, 1) + 3] = 0.3;
-  EXPECT_DOUBLE_EQ(LineSystem(cable_assembler).largest_turn(d), 0.3);
+  EXPECT_DOUBLE_EQ(LineSystem(cable_assembler).measure_increment(d).turn, 0.3);
 }
 
 TEST(LineSystem, ReferenceForceIsTheReactionOrTheLargestNodalLoad) {
