@@ -9,7 +9,7 @@ namespace hawser {
 
 template <class T>
 struct CacheLineAllocator {
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): the library wants this spelling
   static constexpr std::align_val_t alignment{64};
 
   CacheLineAllocator() = default;

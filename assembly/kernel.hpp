@@ -25,10 +25,10 @@ struct ElementResult {
 template <class Family, class S>
 struct Integrand {
   Response<S> at[gauss_points];
-  V3<S> axial;    // conjugate to r' in the middle
-  M3<S> axial_J;  // its tangent
-  V3<S> missed;   // force on mode e that three Gauss points miss
-  S missed_J;     // times the identity
+  V3<S> axial;          // conjugate to r' in the middle
+  M3<S> axial_tangent;  // its tangent
+  V3<S> missed;         // force on mode e that three Gauss points miss
+  S missed_tangent;     // times the identity
   S length, inverse_length;
 };
 
@@ -124,11 +124,11 @@ HAWSER_INLINE void integrate(const ElementState<S>& x, const Properties<S>& e, c
   Axial::evaluate<want>(middle.a(y.q), middle.a(y.v), e, w, axial, J);
   in.axial = share * axial;
   if constexpr (want == Want::tangent)
-    for (int c = 0; c < 9; ++c) in.axial_J.m[c] = share * J.m[c];
+    for (int c = 0; c < 9; ++c) in.axial_tangent.m[c] = share * J.m[c];
   if constexpr (Shape::node_vectors == 2) {
     const S missed = S(0.5 * Shape::missed_mass) * e.mass * e.length * e.length * e.length;
     in.missed = missed * y.a[2];
-    in.missed_J = S(w.m) * missed;
+    in.missed_tangent = S(w.m) * missed;
   }
 }
 
@@ -208,12 +208,12 @@ template <class Family, class S>
 HAWSER_INLINE void elastic_component(const Integrand<Family, S>& in, int c, S (*G)[Family::Shape::modes]) {
   using Shape = typename Family::Shape;
   const S per_y = S(2.0) * in.inverse_length;
-  const S axial = in.axial_J.m[c];
+  const S axial = in.axial_tangent.m[c];
   if constexpr (Shape::modes == 2) {
     G[1][1] = per_y * per_y * axial;
   } else {
     constexpr double A2 = outer<Shape, Channel::a, 2>, A2c = centre<Shape, Channel::a, 2>;
-    S dd = axial, de = S(A2c) * axial, ee = S(A2c * A2c) * axial + in.missed_J * S(identity_components[c]);
+    S dd = axial, de = S(A2c) * axial, ee = S(A2c * A2c) * axial + in.missed_tangent * S(identity_components[c]);
     S ed = de, df(0.0), fd(0.0), ef(0.0), fe(0.0), ff(0.0);
     if constexpr (Family::bends) {
       constexpr double A3 = outer<Shape, Channel::a, 3>, B2 = outer<Shape, Channel::b, 2>, B3 = outer<Shape, Channel::b, 3>;
@@ -229,7 +229,7 @@ HAWSER_INLINE void elastic_component(const Integrand<Family, S>& in, int c, S (*
       const S df_both = S(A3) * aa.difference;
       df = df_both + S(B3) * (ab.sum + ab1);
       fd = df_both + S(B3) * (ba.sum + ba1);
-      ee = S(A2 * A2) * aa.sum + S(A2c * A2c) * aa1 + S(A2 * B2) * both + S(B2 * B2) * bb.sum + in.missed_J * S(identity_components[c]);
+      ee = S(A2 * A2) * aa.sum + S(A2c * A2c) * aa1 + S(A2 * B2) * both + S(B2 * B2) * bb.sum + in.missed_tangent * S(identity_components[c]);
       const S ef_both = S(A2 * A3) * aa.difference + S(B2 * B3) * bb.difference;
       ef = ef_both + S(A2 * B3) * ab.sum + S(A2c * B3) * ab1 + S(B2 * A3) * ba.sum;
       fe = ef_both + S(A2 * B3) * ba.sum + S(A2c * B3) * ba1 + S(B2 * A3) * ab.sum;
