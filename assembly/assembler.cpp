@@ -14,9 +14,6 @@ namespace hawser {
 
 namespace {
 
-// Below this many elements two threads gain nothing: starting a parallel region costs about as much as the sweep of 1000 (bench/README.md).
-constexpr int serial_below = 2000;
-
 }  // namespace
 
 int Tangent::negative_inner_pivots() const {

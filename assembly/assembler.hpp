@@ -37,6 +37,9 @@ struct Tangent {
   int negative_inner_pivots() const;
 };
 
+/// Below this many elements one thread does all: starting a parallel region costs about as much as the sweep of a thousand (bench/README.md).
+inline constexpr int serial_below = 2000;
+
 class Assembler {
  public:
   /// threads >= 1. The model must outlive the assembler.

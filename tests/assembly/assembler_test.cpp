@@ -7,6 +7,7 @@
 #include <random>
 
 #include "assembly/element.hpp"
+#include "assembly/observables.hpp"
 #include "tests/support/scene_samples.hpp"
 
 namespace hawser {
@@ -118,7 +119,7 @@ TEST_P(AssemblerOf, CondensedTangentLinearisesTheWholeResidual) {
 }
 
 TEST_P(AssemblerOf, SameBitsForAnyNumberOfThreads) {
-  const Model model = build_model(scene(1500));
+  const Model model = build_model(scene(serial_below + 500));
   const State state = random_state(model, 3);
   std::vector<std::vector<double>> residuals, values;
   for (int threads : {1, 2, 3, 7}) {
@@ -159,6 +160,24 @@ TEST_P(AssemblerOf, EveryInstructionSetGivesTheSameNumbers) {
     expect_close(residuals[0], residuals[k]);
     expect_close(values[0], values[k]);
   }
+}
+
+TEST_P(AssemblerOf, ObservedInPacksIsWhatEachElementShows) {
+  const Model model = build_model(scene());
+  const State state = random_state(model, 6);
+  const LineResult seen = observe_line(model, state, 0);
+  double largest = 0.0, least = 1.0e300;
+  for (double x : seen.tension_right) largest = std::max(largest, std::abs(x));
+  std::vector<double> curvature(model.lines[0].nodes, 0.0);
+  for (int i = 0; i < model.lines[0].elements; ++i) {
+    const Observed<double> alone = observe_element(model, state, 0, i);
+    EXPECT_NEAR(seen.tension_right[i], alone.tension[0], 1.0e-13 * largest) << i;  // rounding of fused products and of the root's estimate
+    EXPECT_NEAR(seen.tension_left[i + 1], alone.tension[1], 1.0e-13 * largest) << i;
+    for (int end = 0; end < 2; ++end) curvature[i + end] = std::max(curvature[i + end], alone.curvature[end]);
+    for (double x : alone.strain_tension) least = std::min(least, x);
+  }
+  EXPECT_NEAR(seen.least_strain_tension, least, 1.0e-13 * model.element.EA[0]);
+  for (std::size_t i = 0; i < curvature.size(); ++i) EXPECT_NEAR(seen.curvature[i], curvature[i], 1.0e-13 * seen.curvature_max) << i;
 }
 
 TEST(Assembler, FlooredTangentIsExactWhereTheTensionIsAboveTheFloor) {

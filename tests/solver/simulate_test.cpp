@@ -138,13 +138,13 @@ TEST(Simulate, EquilibriumStaysAtRest) {
 }
 
 TEST(Simulate, SameBitsForAnyNumberOfThreads) {
-  const Model model = build_model(umbilical(300));
+  const Model model = build_model(umbilical(serial_below + 300));
   std::vector<State> ends;
   for (const int threads : {1, 2, 3}) {
     const Assembler assembler(model, threads);
     State state = equilibrium(assembler);
     SimulateReport report;
-    ends.push_back(run_and_sample(assembler, times(2.0, 0.05, 1.0), state, report).back().state);
+    ends.push_back(run_and_sample(assembler, times(0.5, 0.05, 0.25), state, report).back().state);
     ASSERT_TRUE(report.finished);
   }
   for (const State& end : ends) {
