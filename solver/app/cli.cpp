@@ -22,9 +22,12 @@ constexpr const char* program_example =
     "  hawser run    data/scenes/umbilical-heave.toml --out heave";
 constexpr const char* program_description =
     "hawser computes how long marine cables hang, tow and shake.\n"
-    "Exit codes: 0 done, 1 internal error, 2 usage or input, 3 no static equilibrium, 4 the time integration stopped, 130 interrupted.";
+    "Exit codes: 0 done, 1 internal error, 2 usage or input, 3 no static equilibrium, 4 the time integration stopped, "
+    "5 a curve finished with failed values, 130 interrupted.";
 constexpr const char* check_example = "  hawser check scene.toml";
-constexpr const char* static_example = "  hawser static scene.toml --set environment.water_density=1000 --json";
+constexpr const char* static_example =
+    "  hawser static scene.toml --set environment.water_density=1000 --json\n"
+    "  hawser static scene.toml --vary points.top.position.0=0:500:11 --out offsets";
 constexpr const char* run_example = "  hawser run scene.toml --out results";
 
 /// Help that starts with the example, kept as the footer of a command.
@@ -60,10 +63,14 @@ void add_static(CLI::App& command, Request& request) {
           ->check(CLI::IsMember({"catenary", "straight"}).description(""))
           ->type_name("NAME");
   command.add_option("--from", request.from, "first guess: the last state of a result on the same mesh")->type_name("FILE")->excludes(start);
-  command.add_option("--stations", request.stations, "even stations in the JSON document (default: the nodes)")
-      ->check(CLI::Range(2, 10'000'000))
-      ->type_name("N");
-  command.add_option("--out", request.out, "folder for static.json, result.h5 and pictures")->type_name("DIR");
+  auto* stations = command.add_option("--stations", request.stations, "even stations in the JSON document (default: the nodes)")
+                       ->check(CLI::Range(2, 10'000'000))
+                       ->type_name("N");
+  command.add_option("--vary", request.vary, "the equilibria of n values of one key from a to b, spelled as for --set: CSV rows, or a JSON array")
+      ->type_name("KEY=a:b:n")
+      ->excludes(stations);
+  command.add_option("--out", request.out, "folder for static.json, result.h5 and pictures; with --vary: curve.csv, curve.json, curve.png")
+      ->type_name("DIR");
   command
       .add_option_function<std::string>(
           "--method",
@@ -73,12 +80,10 @@ void add_static(CLI::App& command, Request& request) {
           },
           "newton (default) or kinsol (not built yet)")
       ->type_name("NAME");
-  for (const char* option : {"--probe", "--vary"}) {
-    command
-        .add_option_function<std::string>(
-            option, [option](const std::string&) { refuse_unbuilt(option); }, "not built yet")
-        ->type_name("...");
-  }
+  command
+      .add_option_function<std::string>(
+          "--probe", [](const std::string&) { refuse_unbuilt("--probe"); }, "not built yet")
+      ->type_name("...");
 }
 
 int dispatch(int argc, const char* const* argv) {

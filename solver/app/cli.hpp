@@ -1,7 +1,7 @@
 // The command line: what was asked for, and the one way from it to a command.
 //
 // Exit codes: 0 done, 1 internal error, 2 usage or input, 3 no static equilibrium, 4 the time integration stopped,
-// 130 interrupted. Data go to stdout, talk goes to stderr.
+// 5 a curve finished with failed values, 130 interrupted. Data go to stdout, talk goes to stderr.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace hawser {
 
-enum class ExitCode { done = 0, internal = 1, usage = 2, no_equilibrium = 3, integration_stopped = 4, interrupted = 130 };
+enum class ExitCode { done = 0, internal = 1, usage = 2, no_equilibrium = 3, integration_stopped = 4, failed_cases = 5, interrupted = 130 };
 
 struct Request {
   std::string scene;                   // path
@@ -24,6 +24,7 @@ struct Request {
   StaticStart start = StaticStart::catenary;
   std::string from;  // result file to start a static from
   int stations = 0;  // even stations; 0: the nodes
+  std::string vary;  // KEY=a:b:n of a static; empty: one equilibrium
 };
 
 /// The scene with its overrides, with the number of threads to use in solve.threads (never 0), and the name of the file where it has no title.

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 
+#include "solver/app/command_static_vary.hpp"
 #include "solver/app/plots.hpp"
 #include "solver/app/recorder_folder.hpp"
 #include "solver/app/text.hpp"
@@ -58,24 +59,29 @@ bool has_shape(const Scene& scene) {
 
 }  // namespace
 
-StaticSolution solve_requested_static(const Request& request, const Scene& scene, const Assembler& assembler) {
-  const Model& model = assembler.model();
+StaticOptions requested_static_options(const Request& request, const Scene& scene) {
   StaticOptions options;
   options.start = request.start;
   options.linear_solver = linear_solver_kind(scene.solve.linear_solver);
   options.tolerance = scene.solve.newton_tolerance.value_or(0.0);
   options.threads = scene.solve.threads;
+  return options;
+}
+
+State requested_start(const Request& request, const Scene& scene, const Model& model, StaticOptions& options) {
+  const bool shaped = request.start == StaticStart::catenary && has_shape(scene);
+  if (request.from.empty() && !shaped) return model.make_state();
+  options.start = StaticStart::given;
+  return request.from.empty() ? static_start(model, StaticStart::catenary, scene) : given_start(model, request.from);
+}
+
+StaticSolution solve_requested_static(const Request& request, const Scene& scene, const Assembler& assembler) {
+  const Model& model = assembler.model();
+  StaticOptions options = requested_static_options(request, scene);
   if (!request.quiet) options.log = [](const std::string& stage) { fmt::print(stderr, "static: {}\n", stage); };
 
   StaticSolution solution;
-  solution.state = model.make_state();
-  if (!request.from.empty()) {
-    solution.state = given_start(model, request.from);
-    options.start = StaticStart::given;
-  } else if (request.start == StaticStart::catenary && has_shape(scene)) {
-    solution.state = static_start(model, StaticStart::catenary, scene);
-    options.start = StaticStart::given;
-  }
+  solution.state = requested_start(request, scene, model, options);
   const Clock::time_point start = Clock::now();
   solution.report = solve_static(assembler, options, solution.state);
   solution.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -89,6 +95,7 @@ StaticSolution solve_requested_static(const Request& request, const Scene& scene
 }
 
 int command_static(const Request& request) {
+  if (!request.vary.empty()) return command_static_vary(request);
   const Scene scene = read_request(request);
   const Model model = build_requested_model(scene);
   std::optional<OutputFolder> folder;

@@ -18,8 +18,15 @@ struct StaticSolution {
 /// Solves, and where it converged estimates the error of the mesh. Stages are told on stderr unless quiet.
 StaticSolution solve_requested_static(const Request& request, const Scene& scene, const Assembler& assembler);
 
+/// What the request says of the solve, silent; and the first guess that --from or the shapes of lines give, with options.start = given.
+StaticOptions requested_static_options(const Request& request, const Scene& scene);
+State requested_start(const Request& request, const Scene& scene, const Model& model, StaticOptions& options);
+
 /// The document of `static --json` (README.md). A solve that failed has no lines and no points, but a failure.
 nlohmann::ordered_json static_document(const Model& model, const StaticSolution& solution, int stations);
+
+/// What a document says of a failure.
+nlohmann::ordered_json failure_document(const Failure& failure);
 
 /// The same for people.
 std::string static_text(const Scene& scene, const Model& model, const StaticSolution& solution);

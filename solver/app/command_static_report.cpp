@@ -73,10 +73,6 @@ Json line_json(const Model& model, const StaticSolution& solution, int index, in
   return json;
 }
 
-Json failure_json(const Failure& failure) {
-  return {{"what", failure.what}, {"line", failure.line}, {"s", failure.s}, {"cause", failure.cause}, {"remedy", failure.remedy}};
-}
-
 /// A force for people: what is below the accuracy of the solve is rounding and shown as zero.
 std::string force_text(double force, const StaticReport& report) {
   return with_prefix(std::abs(force) < 1e-9 * report.reference_force ? 0.0 : force, "N");
@@ -98,6 +94,10 @@ std::string seabed_text(const Model& model, const State& state) {
 
 }  // namespace
 
+Json failure_document(const Failure& failure) {
+  return {{"what", failure.what}, {"line", failure.line}, {"s", failure.s}, {"cause", failure.cause}, {"remedy", failure.remedy}};
+}
+
 Json static_document(const Model& model, const StaticSolution& solution, int stations) {
   const StaticReport& report = solution.report;
   Json json;
@@ -117,7 +117,7 @@ Json static_document(const Model& model, const StaticSolution& solution, int sta
   json["lines"] = Json::object();
   json["points"] = Json::object();
   if (!report.converged) {
-    json["failure"] = failure_json(report.failure);
+    json["failure"] = failure_document(report.failure);
     return json;
   }
   for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {

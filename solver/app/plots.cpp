@@ -14,10 +14,6 @@ namespace hawser {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<const char*, 6> colours{"#1f5f99", "#c8501e", "#2c8a57", "#8a4fa3", "#8c6d1f", "#4a4a4a"};
-
-const char* colour_of(std::size_t line) { return colours[line % colours.size()]; }
-
 struct Box {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
 

@@ -5,6 +5,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <array>
 #include <cstring>
 
 extern char** environ;
@@ -33,6 +34,11 @@ std::string gnuplot_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
   return quoted + '\'';
+}
+
+const char* colour_of(std::size_t line) {
+  static constexpr std::array<const char*, 6> colours{"#1f5f99", "#c8501e", "#2c8a57", "#8a4fa3", "#8c6d1f", "#4a4a4a"};
+  return colours[line % colours.size()];
 }
 
 std::string gnuplot_head(const std::string& picture, const std::string& title) {

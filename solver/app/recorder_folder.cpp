@@ -20,7 +20,8 @@ fs::path existing_ancestor(fs::path path) {
 
 /// Removes a folder that an earlier command wrote: only the files hawser writes, so that nobody else's are lost.
 void discard(const fs::path& folder) {
-  for (const char* name : {"series.csv", "result.h5", "summary.json", "static.json", "profile.png", "tension.png", "tension_history.png"}) {
+  for (const char* name : {"series.csv", "result.h5", "summary.json", "static.json", "profile.png", "tension.png", "tension_history.png", "curve.csv",
+                           "curve.json", "curve.png"}) {
     fs::remove(folder / name);
   }
   fs::remove_all(folder / "plots");

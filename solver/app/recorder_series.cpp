@@ -12,11 +12,6 @@
 #include "solver/app/text.hpp"
 
 namespace hawser {
-namespace {
-
-struct ClampedEnds {
-  bool from = false, to = false;
-};
 
 ClampedEnds clamped_ends(const Model& model, int line) {
   ClampedEnds ends;
@@ -26,8 +21,6 @@ ClampedEnds clamped_ends(const Model& model, int line) {
   }
   return ends;
 }
-
-}  // namespace
 
 std::vector<std::vector<double>> stations_of(const Scene& scene, const Model& model) {
   std::vector<std::vector<double>> result(model.lines.size());

@@ -22,6 +22,11 @@ struct Observation {
   std::vector<PointResult> points;             // as Model::points
 };
 
+struct ClampedEnds {
+  bool from = false, to = false;
+};
+ClampedEnds clamped_ends(const Model& model, int line);
+
 /// Arc lengths per line of the model, in the order of the scene.
 std::vector<std::vector<double>> stations_of(const Scene& scene, const Model& model);
 

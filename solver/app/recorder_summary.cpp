@@ -51,10 +51,7 @@ Json run_summary(const Scene& scene, const Model& model, const RunRecord& run) {
     const StaticReport& report = run.equilibrium->report;
     json["static"] = {{"converged", report.converged}, {"iterations", report.iterations}, {"residual", report.residual}, {"stable", report.stable}};
   }
-  if (!run.dynamics.finished && !run.dynamics.interrupted) {
-    const Failure& f = run.dynamics.failure;
-    json["failure"] = {{"what", f.what}, {"line", f.line}, {"s", f.s}, {"cause", f.cause}, {"remedy", f.remedy}};
-  }
+  if (!run.dynamics.finished && !run.dynamics.interrupted) json["failure"] = failure_document(run.dynamics.failure);
   return json;
 }
 

@@ -43,7 +43,7 @@ TEST_F(Cli, BadUsageEndsWithCodeTwoAndSaysWhyOnStderr) {
 TEST_F(Cli, WhatIsNotBuiltYetIsRefusedByName) {
   write("scene.toml", small_scene);
   for (const char* arguments : {"modes scene.toml -n 20 --json", "sweep scene.toml", "chart scene.toml", "report scene.toml", "convert scene.toml",
-                                "static scene.toml --method kinsol", "static scene.toml --probe 3", "static scene.toml --vary a=0:1:2"}) {
+                                "static scene.toml --method kinsol", "static scene.toml --probe 3"}) {
     const Outcome outcome = hawser(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_NE(outcome.err.find("not built yet"), std::string::npos) << arguments;
