@@ -1,11 +1,13 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "assembly/observables.hpp"
 #include "assembly/seabed.hpp"
 #include "solver/app/command_static.hpp"
 #include "solver/app/text.hpp"
+#include "solver/end_stiffness.hpp"
 
 namespace hawser {
 namespace {
@@ -47,6 +49,14 @@ Json seabed_json(const Model& model, const State& state, int index, const Seabed
           {"penetration_max_s", contact.largest_penetration_s}};
 }
 
+/// Rows of a matrix; null where it is not known.
+Json to_json(const Eigen::MatrixXd& matrix) {
+  if (matrix.size() == 0) return nullptr;
+  Json rows = Json::array();
+  for (const auto row : matrix.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return rows;
+}
+
 Json line_json(const Model& model, const StaticSolution& solution, int index, int stations) {
   const Line& line = model.lines[static_cast<std::size_t>(index)];
   const LineResult result = observe_line(model, solution.state, index);
@@ -76,6 +86,23 @@ Json line_json(const Model& model, const StaticSolution& solution, int index, in
 /// A force for people: what is below the accuracy of the solve is rounding and shown as zero.
 std::string force_text(double force, const StaticReport& report) {
   return with_prefix(std::abs(force) < 1e-9 * report.reference_force ? 0.0 : force, "N");
+}
+
+/// How the force at every held end answers to its displacement: three rows an end, and a blank line.
+std::string stiffness_text(const Model& model, const StaticSolution& solution) {
+  std::vector<std::vector<std::string>> rows{{"end stiffness", "of force", "for x", "for y", "for z"}};
+  for (const EndStiffness& end : end_stiffness(model, solution.state)) {
+    if (end.value.size() == 0) continue;
+    const Line& line = model.lines[static_cast<std::size_t>(end.line)];
+    const double largest = std::max(end.value.topLeftCorner(3, 3).cwiseAbs().maxCoeff(), solution.report.reference_force / line.length);
+    for (int i = 0; i < 3; ++i) {
+      const std::string place = line.name + (end.at_from ? " from" : " to");
+      std::vector<std::string> row{i == 0 ? place : "", std::string(1, "xyz"[i])};
+      for (int k = 0; k < 3; ++k) row.push_back(with_prefix(std::abs(end.value(i, k)) < 1e-6 * largest ? 0.0 : end.value(i, k), "N/m"));
+      rows.push_back(row);
+    }
+  }
+  return rows.size() > 1 ? '\n' + table(rows) : "";
 }
 
 /// What rests on the bed, a row a line that touches it, and a blank line.
@@ -123,6 +150,9 @@ Json static_document(const Model& model, const StaticSolution& solution, int sta
   for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
     json["lines"][model.lines[static_cast<std::size_t>(line)].name] = line_json(model, solution, line, stations);
   }
+  for (const EndStiffness& end : end_stiffness(model, solution.state)) {
+    json["lines"][model.lines[static_cast<std::size_t>(end.line)].name][end.at_from ? "stiffness_from" : "stiffness_to"] = to_json(end.value);
+  }
   const std::vector<PointResult> points = observe_points(model, solution.state);
   for (std::size_t i = 0; i < points.size(); ++i) {
     json["points"][model.points[i].name] = {{"position", to_json(points[i].position)}, {"force", to_json(points[i].force)}};
@@ -151,9 +181,10 @@ std::string static_text(const Scene& scene, const Model& model, const StaticSolu
     points.push_back(row);
   }
   const std::string on_bed = model.seabed ? seabed_text(model, solution.state) : "";
-  return fmt::format("{}\n{} equilibrium after {} factorizations ({}), residual {:.1e} of {}, {:.3g} s\n\n{}\n{}{}", scene.title,
+  return fmt::format("{}\n{} equilibrium after {} factorizations ({}), residual {:.1e} of {}, {:.3g} s\n\n{}\n{}{}{}", scene.title,
                      report.stable ? "stable" : "UNSTABLE", report.iterations, report.linear_solver, report.residual,
-                     with_prefix(report.reference_force, "N"), solution.wall_seconds, table(lines), on_bed, table(points));
+                     with_prefix(report.reference_force, "N"), solution.wall_seconds, table(lines), on_bed, table(points),
+                     stiffness_text(model, solution));
 }
 
 }  // namespace hawser

@@ -90,6 +90,9 @@ TEST_F(Cli, StaticDocumentHasEveryKeyOfTheContract) {
   EXPECT_NEAR(line.at("tension_from").get<double>(), total, 1e-9 * total);
   EXPECT_NEAR(document.at("points").at("top").at("force").at(2).get<double>(), -total, 1e-9 * total);
   EXPECT_EQ(document.at("points").at("end").at("position").size(), 3U);
+  EXPECT_EQ(line.at("stiffness_from").size(), 3U);
+  EXPECT_EQ(line.at("stiffness_from").at(2).size(), 3U);
+  EXPECT_FALSE(line.contains("stiffness_to"));  // a free end
 }
 
 TEST_F(Cli, StaticDocumentTellsWhatLiesOnTheSeabed) {
