@@ -91,6 +91,7 @@ Variation parse_variation(const std::string& option, const std::string& text) {
   Variation out;
   out.key = trimmed(std::string_view(text).substr(0, equals));
   if (out.key.empty() || equals == text.size()) refuse(argument, "there is no key with a range");
+  if (out.key.find('[') != std::string::npos) refuse(argument, "items of a list are named by number, position.0 and not position[0]");
   read_range(out, argument, std::string_view(text).substr(equals + 1));
   return out;
 }

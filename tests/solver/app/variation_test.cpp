@@ -48,6 +48,7 @@ TEST(Variation, AUnitIsKeptWithEveryValue) {
 TEST(Variation, EachFaultIsSaidInItsOwnWords) {
   const std::vector<std::pair<std::string, std::string>> faults{{"depth", "no key with a range"},
                                                                 {"=1:2:3", "no key with a range"},
+                                                                {"points.top.position[0]=1:2:3", "position.0 and not position[0]"},
                                                                 {"depth=1:2", "this has 2"},
                                                                 {"depth=1:2:3:4", "this has 4"},
                                                                 {"depth=:2:3", "the first value `` is not a number"},
