@@ -12,9 +12,7 @@
 
 namespace hawser {
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 int Tangent::negative_inner_pivots() const {
   int n = 0;
