@@ -37,9 +37,7 @@ struct Assembler::Impl {
   TangentFloor floor;  // the one the tables hold
 
   Impl(const Model& m, int n) : model(m), threads(n) {
-    const ElementArrays& e = m.element;
-    const std::vector<double>* source[property_count - 1] = {
-        &e.length, &e.EA, &e.EI, &e.axial_damping, &e.mass, &e.weight, &e.drag_normal, &e.drag_tangential, &e.added_normal, &e.added_tangential};
+    const auto source = property_arrays(m.element);
     for (int k = 0; k < property_count - 1; ++k) {
       property[k] = *source[k];
       // An element at a joint contributes nothing to the sweep: its own path computes it (joints.hpp).

@@ -1,7 +1,6 @@
 #include "assembly/element.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "assembly/seabed.hpp"
 
@@ -51,23 +50,17 @@ void evaluate(const ElementState<double>& x, const Properties<double>& e, const 
   }
 }
 
-/// Calls f with the family's type.
-template <class F>
-void with_family(Family family, bool wet, F&& f) {
-  switch (family) {
-    case Family::bar:
-      return wet ? f(std::type_identity<BarWet>{}) : f(std::type_identity<BarDry>{});
-    case Family::cable:
-      return wet ? f(std::type_identity<CableWet>{}) : f(std::type_identity<CableDry>{});
-    case Family::beam:
-      return wet ? f(std::type_identity<BeamWet>{}) : f(std::type_identity<BeamDry>{});
-  }
-}
-
 template <Want want>
 void evaluate_family(Family family, bool wet, const ElementState<double>& x, const Properties<double>& e, const Weights& w,
                      const CurrentTable& current, Element& out) {
-  with_family(family, wet, [&](auto of) { evaluate<typename decltype(of)::type, want>(x, e, w, current, out); });
+  switch (family) {
+    case Family::bar:
+      return wet ? evaluate<BarWet, want>(x, e, w, current, out) : evaluate<BarDry, want>(x, e, w, current, out);
+    case Family::cable:
+      return wet ? evaluate<CableWet, want>(x, e, w, current, out) : evaluate<CableDry, want>(x, e, w, current, out);
+    case Family::beam:
+      return wet ? evaluate<BeamWet, want>(x, e, w, current, out) : evaluate<BeamDry, want>(x, e, w, current, out);
+  }
 }
 
 void subtract_spread_loads(const Model& model, const State& state, int line, int element, Vector12& f) {
@@ -80,6 +73,10 @@ void subtract_spread_loads(const Model& model, const State& state, int line, int
 }
 
 }  // namespace
+
+std::array<const std::vector<double>*, property_count - 1> property_arrays(const ElementArrays& e) {
+  return {&e.length, &e.EA, &e.EI, &e.axial_damping, &e.mass, &e.weight, &e.drag_normal, &e.drag_tangential, &e.added_normal, &e.added_tangential};
+}
 
 CurrentTable current_table(const Model& model) {
   return {static_cast<int>(model.current.z.size()), model.current.z.data(), model.current.ux.data(), model.current.uy.data()};
@@ -136,17 +133,14 @@ Vector12 element_force(const Model& model, const State& state, int line, int ele
 
 Observed<double> observe_element(const Model& model, const State& state, int line, int element) {
   const ElementState<double> x = element_state(model, state, line, element);
-  Observed<double> out;
-  with_family(model.lines[line].family, model.wet, [&](auto family) {
-    observe<typename decltype(family)::type>(x, element_properties(model, element, no_floor), current_table(model), out);
-  });
   const Vector12 f = element_force(model, state, line, element);
-  const bool bar = model.lines[line].family == Family::bar;
-  const auto direction = [&](const V3<double>& slope) {
-    return (bar ? Vec3(x.q.r1[0] - x.q.r0[0], x.q.r1[1] - x.q.r0[1], x.q.r1[2] - x.q.r0[2]) : Vec3(slope[0], slope[1], slope[2])).normalized();
-  };
-  out.tension[0] = -f.segment<3>(0).dot(direction(x.q.s0));
-  out.tension[1] = f.segment<3>(6).dot(direction(x.q.s1));
+  const V3<double> left{{f[0], f[1], f[2]}}, right{{f[6], f[7], f[8]}};
+  const double l = model.element.length[element], EA = model.element.EA[element];
+  Observed<double> out;
+  if (model.lines[line].family == Family::bar)
+    observe<StraightShape>(x.q, left, right, l, EA, out);
+  else
+    observe<HermiteShape>(x.q, left, right, l, EA, out);
   return out;
 }
 

@@ -5,6 +5,8 @@
 //   b_dot = mu_dot r' + mu r'_dot,   b_ddot = mu_ddot r' + 2 mu_dot r'_dot + mu r'_ddot.
 #pragma once
 
+#include <array>
+
 #include "assembly/model.hpp"
 #include "assembly/observed.hpp"
 #include "assembly/state.hpp"
@@ -20,6 +22,9 @@ struct Element {
   Vector12 f;
   Matrix12 K;
 };
+
+/// The arrays of the elements' properties in the order of Properties, without the least tension.
+std::array<const std::vector<double>*, property_count - 1> property_arrays(const ElementArrays& e);
 
 /// The joint at the right end of an element, or null.
 const Joint* joint_of(const Model& model, int element);

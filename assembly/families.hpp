@@ -23,6 +23,10 @@ inline constexpr int gauss_points = 3;
 inline constexpr double gauss_eta[3] = {-0.38729833462074169, 0.0, 0.38729833462074169};  // sqrt(0.15)
 inline constexpr double gauss_weight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
+/// Four points on [0, 1], for what three do not meet: energies, contact.
+inline constexpr double four_gauss_xi[4] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
+inline constexpr double four_gauss_weight[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+
 enum class Channel { r, a, b };
 
 /// Cubic Hermite: cable and beam.

@@ -213,27 +213,29 @@ HAWSER_INLINE void elastic_component(const Integrand<Family, S>& in, int c, S (*
     G[1][1] = per_y * per_y * axial;
   } else {
     constexpr double A2 = outer<Shape, Channel::a, 2>, A2c = centre<Shape, Channel::a, 2>;
-    S dd = axial, de = S(A2c) * axial, ee = S(A2c * A2c) * axial + in.missed_tangent * S(identity_components[c]);
-    S ed = de, df(0.0), fd(0.0), ef(0.0), fe(0.0), ff(0.0);
+    const S missed = in.missed_tangent * S(identity_components[c]);
+    S middle = axial, df(0.0), fd(0.0), ef(0.0), fe(0.0), ff(0.0);
+    if constexpr (Family::bends) middle = middle + in.at[1].Jaa.m[symmetric_index[c]];
+    S dd = middle, de = S(A2c) * middle, ed = de, ee = S(A2c * A2c) * middle + missed;
     if constexpr (Family::bends) {
       constexpr double A3 = outer<Shape, Channel::a, 3>, B2 = outer<Shape, Channel::b, 2>, B3 = outer<Shape, Channel::b, 3>;
       const int t = transposed_index[c], s = symmetric_index[c];
-      const Response<S>*at = in.at, &middle = in.at[1];
+      const Response<S>* at = in.at;
       const Pair<S> aa(at[0].Jaa.m[s], at[2].Jaa.m[s]), bb(at[0].Jbb.m[s], at[2].Jbb.m[s]);
       const Pair<S> ab(at[0].Jab.m[c], at[2].Jab.m[c]), ba(at[0].Jab.m[t], at[2].Jab.m[t]);
-      const S aa1 = axial + middle.Jaa.m[s], ab1 = middle.Jab.m[c], ba1 = middle.Jab.m[t], both = ab.difference + ba.difference;
-      dd = aa.sum + aa1;
-      const S de_both = S(A2) * aa.sum + S(A2c) * aa1;
-      de = de_both + S(B2) * ab.difference;
-      ed = de_both + S(B2) * ba.difference;
-      const S df_both = S(A3) * aa.difference;
-      df = df_both + S(B3) * (ab.sum + ab1);
-      fd = df_both + S(B3) * (ba.sum + ba1);
-      ee = S(A2 * A2) * aa.sum + S(A2c * A2c) * aa1 + S(A2 * B2) * both + S(B2 * B2) * bb.sum + in.missed_tangent * S(identity_components[c]);
-      const S ef_both = S(A2 * A3) * aa.difference + S(B2 * B3) * bb.difference;
-      ef = ef_both + S(A2 * B3) * ab.sum + S(A2c * B3) * ab1 + S(B2 * A3) * ba.sum;
-      fe = ef_both + S(A2 * B3) * ba.sum + S(A2c * B3) * ba1 + S(B2 * A3) * ab.sum;
-      ff = S(A3 * A3) * aa.sum + S(A3 * B3) * both + S(B3 * B3) * (bb.sum + middle.Jbb.m[s]);
+      const S ab1 = at[1].Jab.m[c], ba1 = at[1].Jab.m[t], both = ab.difference + ba.difference;
+      dd = dd + aa.sum;
+      de = de + S(A2) * aa.sum;
+      ed = de + S(B2) * ba.difference;
+      de = de + S(B2) * ab.difference;
+      ee = ee + S(A2 * A2) * aa.sum + S(A2 * B2) * both + S(B2 * B2) * bb.sum;
+      df = fd = S(A3) * aa.difference;
+      df = df + S(B3) * (ab.sum + ab1);
+      fd = fd + S(B3) * (ba.sum + ba1);
+      ef = fe = S(A2 * A3) * aa.difference + S(B2 * B3) * bb.difference;
+      ef = ef + S(A2 * B3) * ab.sum + S(A2c * B3) * ab1 + S(B2 * A3) * ba.sum;
+      fe = fe + S(A2 * B3) * ba.sum + S(A2c * B3) * ba1 + S(B2 * A3) * ab.sum;
+      ff = S(A3 * A3) * aa.sum + S(A3 * B3) * both + S(B3 * B3) * (bb.sum + at[1].Jbb.m[s]);
     }
     G[1][1] = per_y * per_y * (dd - de - ed + ee);
     G[1][2] = per_y * (de - ee);

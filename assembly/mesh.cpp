@@ -6,13 +6,13 @@
 
 namespace hawser {
 
-namespace {
-
 const LineType& find_type(const std::string& name, std::span<const LineType> types) {
   for (const LineType& t : types)
     if (t.name == name) return t;
   throw std::invalid_argument("no line type named " + name);
 }
+
+namespace {
 
 Family family_of(const LineSpec& line, std::span<const LineType> types) {
   switch (line.model) {

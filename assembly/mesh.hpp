@@ -5,12 +5,16 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "assembly/model.hpp"
 #include "assembly/scene.hpp"
 
 namespace hawser {
+
+/// Throws std::invalid_argument where there is none: the reader has refused such a scene.
+const LineType& find_type(const std::string& name, std::span<const LineType> types);
 
 struct MeshJoint {
   int node;

@@ -113,11 +113,9 @@ Vec3 end_moment(const Vec3& slope, const Vec3& generalized) { return -slope.cros
 /// Elements of a line, a panel at a time in packs.
 class ObservedPanel {
  public:
-  ObservedPanel(const Model& model, const State& state, int line, int first, int count) {
+  ObservedPanel(const SweepTable& sweep, const Model& model, const State& state, int line, int first, int count) {
     const Line& l = model.lines[line];
-    const ElementArrays& e = model.element;
-    const std::vector<double>* source[property_count - 1] = {
-        &e.length, &e.EA, &e.EI, &e.axial_damping, &e.mass, &e.weight, &e.drag_normal, &e.drag_tangential, &e.added_normal, &e.added_tangential};
+    const auto source = property_arrays(model.element);
     SweepLine panel{};
     for (int k = 0; k < property_count; ++k) {
       std::fill_n(property_[k], observed_stride, k == 0 ? 1.0 : 0.0);
@@ -130,7 +128,7 @@ class ObservedPanel {
     panel.v = state.v.data() + dof;
     panel.a = state.a.data() + dof;
     panel.current = current_table(model);
-    widest_sweep_table().observe[sweep_family(static_cast<int>(l.family), model.wet)](panel, row_[0]);
+    sweep.observe[sweep_family(static_cast<int>(l.family), model.wet)](panel, row_[0]);
   }
 
   Observed<double> at(int i) const { return {{row_[0][i], row_[1][i]}, {row_[2][i], row_[3][i]}, {row_[4][i], row_[5][i], row_[6][i]}}; }
@@ -185,9 +183,10 @@ LineResult observe_line(const Model& model, const State& state, int line) {
   out.tension_right.assign(l.nodes, 0.0);
   out.curvature.assign(l.nodes, 0.0);
   out.least_strain_tension = std::numeric_limits<double>::infinity();
+  const SweepTable& sweep = widest_sweep_table();
   for (int first = 0; first < l.elements; first += panel_elements) {
     const int count = std::min(panel_elements, l.elements - first);
-    const ObservedPanel panel(model, state, line, first, count);
+    const ObservedPanel panel(sweep, model, state, line, first, count);
     for (int k = 0; k < count; ++k) {
       Observed<double> seen = panel.at(k);
       correct(model, state, line, first + k, seen);
@@ -263,13 +262,11 @@ void add_element_energies(const Model& model, const State& state, int line, int 
   const ElementView e = view(model, state, line, element);
   const double l = e.length;
   // Mass and weight by four Gauss points: exact for the sextic of the consistent mass.
-  constexpr double x4[4] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
-  constexpr double w4[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
   for (int q = 0; q < 4; ++q) {
-    const double m = w4[q] * l * p.mass[element];
-    const Vec3 r = e.q.value(x4[q]), v = e.v.value(x4[q]);
+    const double m = four_gauss_weight[q] * l * p.mass[element];
+    const Vec3 r = e.q.value(four_gauss_xi[q]), v = e.v.value(four_gauss_xi[q]);
     sum.kinetic += 0.5 * m * v.squaredNorm();
-    sum.potential += w4[q] * l * p.weight[element] * r[2];
+    sum.potential += four_gauss_weight[q] * l * p.weight[element] * r[2];
     sum.momentum += m * v;
     sum.angular_momentum += m * r.cross(v);
   }

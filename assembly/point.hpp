@@ -53,6 +53,8 @@ struct Properties {
   S least_tension;                   // N: floor of the geometric stiffness (theory 7.2); very negative: none
 };
 
+inline constexpr int property_count = 11;  // in the order of the members above
+
 /// The weights of the tangent as the kernels read them.
 struct Weights {
   double k, c, m;

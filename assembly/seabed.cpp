@@ -10,9 +10,7 @@
 namespace hawser {
 namespace {
 
-constexpr int points = 4;
-constexpr double gauss_x[points] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
-constexpr double gauss_w[points] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+constexpr int points = 4;                  // of Gauss, in a piece of an element
 constexpr int samples = 8;                 // of the penetration over an element, on a grid
 constexpr double root_resolution = 1e-15;  // of the element
 
@@ -207,7 +205,7 @@ bool add_contact_of(const ContactElement& e, const Columns& v, const TangentWeig
   const Pieces wet = e.wet(true);
   for (const Piece& piece : wet)
     for (int q = 0; q < points; ++q) {
-      const double width = piece.b - piece.a, xi = piece.a + width * gauss_x[q], w = gauss_w[q] * width * e.length();
+      const double width = piece.b - piece.a, xi = piece.a + width * four_gauss_xi[q], w = four_gauss_weight[q] * width * e.length();
       const Shapes n = e.shapes(xi);
       if (e.upward_only())
         add_upward_point(e.seabed().law, n, e.level_gap(n), w, weights, f, K);
@@ -232,7 +230,7 @@ void add_force(const Chain& chain, int node, const Vector12& f, std::span<double
 void add_depth(const ContactElement& e, const Piece& piece, double s0, SeabedContact& out) {
   const double width = piece.b - piece.a;
   for (int q = 0; q < points; ++q)
-    out.force += gauss_w[q] * width * e.length() * contact_pressure(e.seabed().law, e.gap(piece.a + width * gauss_x[q]));
+    out.force += four_gauss_weight[q] * width * e.length() * contact_pressure(e.seabed().law, e.gap(piece.a + width * four_gauss_xi[q]));
   std::array<double, samples + 1> xi;
   const int count = e.monotone_cuts(xi);
   for (int i = 0; i < count; ++i) {

@@ -11,6 +11,7 @@
 // Elements whose control points lie above the bed are passed over; a model without a seabed costs one test.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct SeabedContact {
   double length = 0.0;                                            // m, unstretched, in contact
   double largest_penetration = 0.0, largest_penetration_s = 0.0;  // m
   double force = 0.0;                                             // N, vertical, of the bed on the line
+
+  /// For a column of numbers: the first touchdown, not a number where there is none.
+  double first_touchdown() const { return touchdown.empty() ? std::numeric_limits<double>::quiet_NaN() : touchdown.front(); }
 };
 
 SeabedContact observe_seabed(const Model& model, const State& state, int line);

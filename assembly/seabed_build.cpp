@@ -5,16 +5,12 @@
 #include <cmath>
 
 #include "assembly/arc.hpp"
+#include "assembly/mesh.hpp"
 
 namespace hawser {
 namespace {
 
 constexpr int substeps = 4;  // of an element, where the bed slopes
-
-double diameter_of(const Scene& scene, const SectionSpec& section) {
-  const auto type = std::find_if(scene.line_types.begin(), scene.line_types.end(), [&](const LineType& t) { return t.name == section.type; });
-  return type->diameter;
-}
 
 /// Where a line was laid from one end: in plan towards the other end, along an arc where it is longer than its way there and up.
 class Lay {
@@ -84,7 +80,7 @@ std::optional<Seabed> make_seabed(const Scene& scene, const Model& model) {
     const LineSpec& written = scene.lines[i];
     const Vec3 a = model.points[line.from].motion(0.0).r, b = model.points[line.to].motion(0.0).r;
     const auto grounded = [&](const Vec3& end, const SectionSpec& section) {
-      return height_above(bed.surface, end) <= grounding_height(diameter_of(scene, section), line.length);
+      return height_above(bed.surface, end) <= grounding_height(find_type(section.type, scene.line_types).diameter, line.length);
     };
     const bool from = !line.from_free && grounded(a, written.sections.front()), to = !line.to_free && grounded(b, written.sections.back());
     if (!from && !to) continue;

@@ -14,7 +14,6 @@ namespace hawser {
 inline constexpr int panel_elements = 64;
 inline constexpr int table_padding = 16;       // doubles that may be read beyond the end of every table
 inline constexpr int carry_size = 6 + 36;      // residual and block of one node
-inline constexpr int property_count = 11;      // of Properties, in the order of its members
 inline constexpr int node_property_count = 3;  // axial terms at nodes: sum of share*EA, share*damping, share*least tension
 
 struct SweepLine {

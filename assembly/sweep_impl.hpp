@@ -212,12 +212,18 @@ void sweep_panel(const SweepLine& line, int panel) {
 template <class Family, int W>
 void observe_panel(const SweepLine& line, double* rows) {
   using S = Pack<W>;
-  PanelState<3 * Family::Shape::node_vectors> state;
+  using Shape = typename Family::Shape;
+  PanelState<3 * Shape::node_vectors> state;
   state.gather(line, 0, line.elements + 1);
   for (int e = 0; e < line.elements; e += W) {
     const ElementState<S> x{state.template nodal<W>(0, e), state.template nodal<W>(1, e), state.template nodal<W>(2, e)};
+    const Properties<S> properties = load_properties<W>(line, e);
+    Integrand<Family, S> in;
+    integrate<Family, Want::force>(x, properties, Weights{1.0, 0.0, 0.0, false}, line.current, in);
+    V3<S> f[2 * Shape::node_vectors];
+    nodal_force(in, f);
     Observed<S> seen;
-    observe<Family>(x, load_properties<W>(line, e), line.current, seen);
+    observe<Shape>(x.q, f[0], f[Shape::node_vectors], properties.length, properties.EA, seen);
     const S row[observed_rows] = {seen.tension[0],        seen.tension[1],        seen.curvature[0],     seen.curvature[1],
                                   seen.strain_tension[0], seen.strain_tension[1], seen.strain_tension[2]};
     for (int k = 0; k < observed_rows; ++k) row[k].store(rows + k * observed_stride + e);

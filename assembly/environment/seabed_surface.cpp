@@ -23,9 +23,7 @@ SeabedSurface::SeabedSurface(const BathymetryGrid& grid) : grid_(grid) {
       p_.push_back(difference(grid.x, i, [&](std::size_t k) { return grid.z[j * nx + k]; }));
       q_.push_back(difference(grid.y, j, [&](std::size_t k) { return grid.z[k * nx + i]; }));
     }
-  const auto [low, high] = std::minmax_element(grid.z.begin(), grid.z.end());
-  lowest_ = *low;
-  highest_ = *high;
+  highest_ = *std::max_element(grid.z.begin(), grid.z.end());
 }
 
 SeabedSurface::Corner SeabedSurface::corner(std::size_t i, std::size_t j) const {

@@ -28,12 +28,11 @@ struct SurfacePoint {
 class SeabedSurface {
  public:
   SeabedSurface() = default;
-  explicit SeabedSurface(double z) : lowest_(z), highest_(z) {}
+  explicit SeabedSurface(double z) : highest_(z) {}
   explicit SeabedSurface(const BathymetryGrid& grid);
 
   bool level() const { return grid_.z.empty(); }
-  double lowest() const { return lowest_; }    // m, of the soundings
-  double highest() const { return highest_; }  // m
+  double highest() const { return highest_; }  // m, of the soundings
 
   /// S: double, or an automatic-differentiation number (the derivatives in the result are those at its value).
   template <class S>
@@ -53,7 +52,7 @@ class SeabedSurface {
 
   BathymetryGrid grid_;
   std::vector<double> p_, q_;  // slopes at the soundings
-  double lowest_ = 0.0, highest_ = 0.0;
+  double highest_ = 0.0;
 };
 
 inline double value_of(double x) { return x; }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
 
+#include "assembly/observables.hpp"
 #include "solver/app/cli.hpp"
 
 namespace hawser {
@@ -25,7 +27,9 @@ State requested_start(const Request& request, const Scene& scene, const Model& m
 /// The document of `static --json` (README.md). A solve that failed has no lines and no points, but a failure.
 nlohmann::ordered_json static_document(const Model& model, const StaticSolution& solution, int stations);
 
-/// What a document says of a failure.
+/// Parts of a document: a vector, every point by its name, a failure.
+nlohmann::ordered_json vector_document(const Vec3& v);
+nlohmann::ordered_json points_document(const Model& model, std::span<const PointResult> points);
 nlohmann::ordered_json failure_document(const Failure& failure);
 
 /// The same for people.

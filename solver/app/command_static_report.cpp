@@ -14,8 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
 std::vector<Station> stations_for(const Model& model, const State& state, int line, int count) {
   if (count == 0) return observe_nodes(model, state, line);
   std::vector<double> s(static_cast<std::size_t>(count));
@@ -41,7 +39,7 @@ Json stations_json(const std::vector<Station>& stations) {
 
 Json seabed_json(const Model& model, const State& state, int index, const SeabedContact& contact) {
   Json places = Json::array();
-  for (const Station& station : observe_stations(model, state, index, contact.touchdown)) places.push_back(to_json(station.position));
+  for (const Station& station : observe_stations(model, state, index, contact.touchdown)) places.push_back(vector_document(station.position));
   return {{"touchdown_positions", places},
           {"length", contact.length},
           {"force", contact.force},
@@ -67,8 +65,8 @@ Json line_json(const Model& model, const StaticSolution& solution, int index, in
   json["error_estimate"] = solution.error_estimates[static_cast<std::size_t>(index)];
   const SeabedContact contact = observe_seabed(model, solution.state, index);
   json["touchdown"] = contact.touchdown;
-  json["moment_from"] = to_json(result.moment_from);
-  json["moment_to"] = to_json(result.moment_to);
+  json["moment_from"] = vector_document(result.moment_from);
+  json["moment_to"] = vector_document(result.moment_to);
   json["torque_from"] = 0.0;
   json["torque_to"] = 0.0;
   json["model"] = name_of(line.family);
@@ -121,6 +119,16 @@ std::string seabed_text(const Model& model, const State& state) {
 
 }  // namespace
 
+Json vector_document(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json points_document(const Model& model, std::span<const PointResult> points) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    json[model.points[i].name] = {{"position", vector_document(points[i].position)}, {"force", vector_document(points[i].force)}};
+  }
+  return json;
+}
+
 Json failure_document(const Failure& failure) {
   return {{"what", failure.what}, {"line", failure.line}, {"s", failure.s}, {"cause", failure.cause}, {"remedy", failure.remedy}};
 }
@@ -153,10 +161,7 @@ Json static_document(const Model& model, const StaticSolution& solution, int sta
   for (const EndStiffness& end : end_stiffness(model, solution.state)) {
     json["lines"][model.lines[static_cast<std::size_t>(end.line)].name][end.at_from ? "stiffness_from" : "stiffness_to"] = to_json(end.value);
   }
-  const std::vector<PointResult> points = observe_points(model, solution.state);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    json["points"][model.points[i].name] = {{"position", to_json(points[i].position)}, {"force", to_json(points[i].force)}};
-  }
+  json["points"] = points_document(model, observe_points(model, solution.state));
   return json;
 }
 

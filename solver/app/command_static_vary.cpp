@@ -75,8 +75,7 @@ std::vector<Column> columns_of(const Model& model, const Observation& o) {
     columns.push_back({name + "curvature_max", line.curvature_max});
     add_vector(name + "force_from_", line.force_from);
     add_vector(name + "force_to_", line.force_to);
-    const std::vector<double>& touchdown = o.seabed[i].touchdown;
-    if (model.seabed) columns.push_back({name + "touchdown", touchdown.empty() ? std::numeric_limits<double>::quiet_NaN() : touchdown.front()});
+    if (model.seabed) columns.push_back({name + "touchdown", o.seabed[i].first_touchdown()});
     const ClampedEnds clamped = clamped_ends(model, static_cast<int>(i));
     if (clamped.from) columns.push_back({name + "moment_from", line.moment_from.norm()});
     if (clamped.to) columns.push_back({name + "moment_to", line.moment_to.norm()});
@@ -97,21 +96,22 @@ Observation blank(const Model& model) {
   return o;
 }
 
-Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
 /// The same as one item of the JSON array, spelled as in `static --json`.
 void add_equilibrium(Json& row, const Model& model, const Observation& o) {
   for (std::size_t i = 0; i < model.lines.size(); ++i) {
     const LineResult& line = o.lines[i];
-    row["lines"][model.lines[i].name] = {{"tension_from", line.tension_from},        {"tension_to", line.tension_to},
-                                         {"tension_max", line.tension_max},          {"tension_min", line.tension_min},
-                                         {"curvature_max", line.curvature_max},      {"force_from", to_json(line.force_from)},
-                                         {"force_to", to_json(line.force_to)},       {"touchdown", o.seabed[i].touchdown},
-                                         {"moment_from", to_json(line.moment_from)}, {"moment_to", to_json(line.moment_to)}};
+    row["lines"][model.lines[i].name] = {{"tension_from", line.tension_from},
+                                         {"tension_to", line.tension_to},
+                                         {"tension_max", line.tension_max},
+                                         {"tension_min", line.tension_min},
+                                         {"curvature_max", line.curvature_max},
+                                         {"force_from", vector_document(line.force_from)},
+                                         {"force_to", vector_document(line.force_to)},
+                                         {"touchdown", o.seabed[i].touchdown},
+                                         {"moment_from", vector_document(line.moment_from)},
+                                         {"moment_to", vector_document(line.moment_to)}};
   }
-  for (std::size_t i = 0; i < model.points.size(); ++i) {
-    row["points"][model.points[i].name] = {{"position", to_json(o.points[i].position)}, {"force", to_json(o.points[i].force)}};
-  }
+  row["points"] = points_document(model, o.points);
 }
 
 /// The rows of a curve in both spellings.

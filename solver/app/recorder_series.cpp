@@ -99,8 +99,7 @@ void SeriesFile::append(const Observation& o) {
     for (const double value : {line.tension_from, line.tension_to, line.tension_max, line.tension_min, line.curvature_max, line.curvature_max_s}) {
       add(value);
     }
-    const std::vector<double>& touchdown = o.seabed[i].touchdown;
-    if (model_.seabed) add(touchdown.empty() ? std::numeric_limits<double>::quiet_NaN() : touchdown.front());
+    if (model_.seabed) add(o.seabed[i].first_touchdown());
     const ClampedEnds clamped = clamped_ends(model_, static_cast<int>(i));
     if (clamped.from) add(line.moment_from.norm());
     if (clamped.to) add(line.moment_to.norm());

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <string_view>
+
+#include "assembly/instruction_set.hpp"
 
 #ifdef __AVX2__
 #define HAWSER_WIDEST_PACK 4
@@ -25,12 +25,7 @@ void PivotWatch::add(const PivotWatch& other) {
 std::span<const ChainKernel* const> chain_kernels() {
 #ifdef __x86_64__
   static const std::array kernels = {&avx512_chain_kernel, &avx2_chain_kernel, &baseline_chain_kernel};
-  const char* forced = std::getenv("HAWSER_SIMD");
-  const std::string_view widest = forced ? forced : "";
-  const bool avx2 = widest != "base" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  const bool avx512 =
-      avx2 && widest != "avx2" && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
-  return std::span(kernels).subspan(avx512 ? 0 : avx2 ? 1 : 2);
+  return std::span(kernels).subspan(static_cast<std::size_t>(InstructionSet::avx512) - static_cast<std::size_t>(widest_instruction_set()));
 #else
   static const std::array kernels = {&baseline_chain_kernel};
   return kernels;

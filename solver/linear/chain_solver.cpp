@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "assembly/aligned.hpp"
 #include "solver/linear/backends.hpp"
 #include "solver/linear/band_solver.hpp"
 #include "solver/linear/chain_kernel.hpp"
@@ -31,8 +32,7 @@ class ChainSolver final : public LinearSolver {
   void analyze(const BlockTridiagonal& pattern) override {
     chains_.assign(pattern.chains().begin(), pattern.chains().end());
     for ([[maybe_unused]] const Chain& c : chains_) assert(c.block == 3 || c.block == 6);
-    const std::size_t doubles_per_line = sizeof(CacheLine) / sizeof(double);
-    factors_.resize((pattern.values().size() + doubles_per_line - 1) / doubles_per_line);
+    factors_.resize(pattern.values().size());
     pivoted_.reset();
     fell_back_ = false;
   }
@@ -57,13 +57,9 @@ class ChainSolver final : public LinearSolver {
     for (const Chain& c : chains_) solve(c, b.data() + c.first_dof);
   }
 
-  std::size_t bytes() const override { return sizeof(CacheLine) * factors_.size() + (pivoted_ ? pivoted_->bytes() : 0); }
+  std::size_t bytes() const override { return sizeof(double) * factors_.size() + (pivoted_ ? pivoted_->bytes() : 0); }
 
  private:
-  struct alignas(64) CacheLine {
-    double values[8];
-  };
-
   // Two threads take a front each. The numbers are those of one thread.
   void factorize(const Chain& c, const double* values, PivotWatch& watch) {
     if (threads_ > 1 && c.nodes >= nodes_to_share_factorization) {
@@ -99,7 +95,7 @@ class ChainSolver final : public LinearSolver {
     fronts(kernel_.backward);
   }
 
-  double* factors_of(const Chain& c) { return factors_.data()->values + c.first_value; }
+  double* factors_of(const Chain& c) { return factors_.data() + c.first_value; }
 
   // The fallback's memory is twice the factors': it is taken when first needed.
   FactorReport factorize_pivoted(const BlockTridiagonal& matrix) {
@@ -115,7 +111,7 @@ class ChainSolver final : public LinearSolver {
   const int threads_;
   const ChainKernel& kernel_ = *chain_kernels().front();
   std::vector<Chain> chains_;
-  std::vector<CacheLine> factors_;
+  AlignedVector<double> factors_;
   std::unique_ptr<BandSolver> pivoted_;
   bool fell_back_ = false;
 };

@@ -205,20 +205,24 @@ double GeneralizedAlpha::local_error() {
   return system_.measure_increment(increment_).scaled;
 }
 
-/// The trial state with the old acceleration at the new time, which takes fewer iterations than a zero one (README.md),
-/// and a_n moved to the new step.
+/// The trial state with an acceleration that goes on changing as in the last step (README.md), and a_n moved to the new step.
 void GeneralizedAlpha::predict(const State& state, double t, double h) {
   const double ratio = last_step_ > 0.0 ? h / last_step_ : 1.0;
-  const double next = 1.0 / (1.0 - alpha_.alpha_m);
   const ConstArray q = array(state.q), v = array(state.v), qdd = array(state.a);
   Array a = array(rebased_);
   trial_.t = t;
   a = qdd + ratio * (array(auxiliary_) - qdd);
   array(trial_.a) = qdd + ratio * array(change_);
-  // The auxiliary acceleration that belongs to it.
-  array(increment_) = next * ((1.0 - alpha_.alpha_f) * array(trial_.a) + alpha_.alpha_f * qdd - alpha_.alpha_m * a);
-  array(trial_.q) = q + h * v + h * h * ((0.5 - alpha_.beta) * a + alpha_.beta * array(increment_));
-  array(trial_.v) = v + h * ((1.0 - alpha_.gamma) * a + alpha_.gamma * array(increment_));
+  find_auxiliary(state, increment_);
+  const Array a_new = array(increment_);
+  array(trial_.q) = q + h * v + h * h * ((0.5 - alpha_.beta) * a + alpha_.beta * a_new);
+  array(trial_.v) = v + h * ((1.0 - alpha_.gamma) * a + alpha_.gamma * a_new);
+}
+
+/// The auxiliary acceleration of the trial state.
+void GeneralizedAlpha::find_auxiliary(const State& state, std::vector<double>& out) {
+  const double next = 1.0 / (1.0 - alpha_.alpha_m);
+  array(out) = next * ((1.0 - alpha_.alpha_f) * array(trial_.a) + alpha_.alpha_f * array(state.a) - alpha_.alpha_m * array(rebased_));
 }
 
 /// Puts the prescribed positions in and corrects velocity and acceleration as a Newton increment would.
@@ -288,8 +292,7 @@ bool GeneralizedAlpha::turned_too_far(const State& state) {
 }
 
 void GeneralizedAlpha::accept(State& state, double h) {
-  const double next = 1.0 / (1.0 - alpha_.alpha_m);
-  array(auxiliary_) = next * ((1.0 - alpha_.alpha_f) * array(trial_.a) + alpha_.alpha_f * array(state.a) - alpha_.alpha_m * array(rebased_));
+  find_auxiliary(state, auxiliary_);
   array(change_) = array(trial_.a) - array(state.a);
   std::swap(state, trial_);
   last_step_ = h;

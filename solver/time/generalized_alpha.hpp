@@ -86,6 +86,7 @@ class GeneralizedAlpha {
   };
 
   void predict(const State& state, double t, double h);
+  void find_auxiliary(const State& state, std::vector<double>& out);
   void follow_prescribed(const TangentWeights& weights);
   StepStatus iterate(const State& state, const TangentWeights& weights, const TangentFloor& floor, StepReport& report);
   bool old_factors_serve(const TangentWeights& weights, const TangentFloor& floor);
