@@ -12,7 +12,15 @@
 
 namespace hawser {
 
-namespace {}  // namespace
+namespace {
+
+/// What the inner unknowns of a joint leave in the right-hand side of its element.
+void condense_inner(const Model& model, const Joint& joint, std::span<const double> r, Elimination& e, std::span<double> rhs) {
+  e.rc = Eigen::Map<const Eigen::VectorXd>(&r[joint.inner], joint.inner_count());
+  Eigen::Map<Vector12>(&rhs[model.dof(joint.line, joint.node - 1)]) += e.Kxc * (e.Kcc_inverse * e.rc);
+}
+
+}  // namespace
 
 int Tangent::negative_inner_pivots() const {
   int n = 0;
@@ -34,7 +42,10 @@ struct Assembler::Impl {
   std::vector<PanelOf> panels;
   std::vector<int> first_panel;  // of each line
   std::vector<double> carry;
-  TangentFloor floor;  // the one the tables hold
+  std::vector<double> beside,
+      condensation;           // of the panels being made: residual of the loads beside the sweep, of inner unknowns in the right-hand side
+  std::vector<char> touched;  // AddedBlocks
+  TangentFloor floor;         // the one the tables hold
 
   Impl(const Model& m, int n) : model(m), threads(n) {
     const auto source = property_arrays(m.element);
@@ -47,7 +58,7 @@ struct Assembler::Impl {
     }
     for (std::size_t line = 0; line < m.lines.size(); ++line) {
       first_panel.push_back(static_cast<int>(panels.size()));
-      const int count = (m.lines[line].elements + panel_elements - 1) / panel_elements;
+      const int count = panel_count(m.lines[line].nodes);
       for (int p = 0; p < count; ++p) panels.push_back({static_cast<int>(line), p});
     }
     carry.assign(panels.size() * carry_size, 0.0);
@@ -114,12 +125,20 @@ struct Assembler::Impl {
     const int count = static_cast<int>(panels.size());
     const int team = model.total_elements() < serial_below ? 1 : threads;
     if (team <= 1) {
-      for (int p = 0; p < count; ++p) run_panel(p, state, w, r, values);
+      for (int p = 0; p < count; ++p) run_panel(p, state, w, r, values_of(p, values));
     } else {
 #pragma omp parallel for num_threads(team) schedule(static)
-      for (int p = 0; p < count; ++p) run_panel(p, state, w, r, values);
+      for (int p = 0; p < count; ++p) run_panel(p, state, w, r, values_of(p, values));
     }
-    add_carries(r, values);
+    for (int p = 0; p + 1 < count; ++p)
+      if (panels[p + 1].line == panels[p].line) add_carry(p, r, values_of(p + 1, values));
+  }
+
+  /// D of a panel's first node in the values of a whole matrix.
+  double* values_of(int p, double* values) {
+    if (!values) return nullptr;
+    const Chain& c = model.chain(panels[p].line);
+    return values + c.first_value + std::size_t{3} * c.block * c.block * first_node_of_panel(panels[p].panel);
   }
 
   void run_panel(int p, const State& state, const TangentWeights& w, double* r, double* values) {
@@ -128,18 +147,29 @@ struct Assembler::Impl {
     (values ? sweep.tangent : sweep.force)[family](line, panels[p].panel);
   }
 
-  void add_carries(double* r, double* values) {
-    for (std::size_t p = 0; p + 1 < panels.size(); ++p) {
-      if (panels[p + 1].line != panels[p].line) continue;
-      const Chain& chain = model.chain(panels[p].line);
-      const int b = chain.block, node = panels[p + 1].panel * panel_elements;
-      const double* c = carry.data() + p * carry_size;
-      for (int i = 0; i < b; ++i) r[chain.dof(node) + i] += c[i];
-      if (!values) continue;
-      double* D = values + chain.first_value + std::size_t{3} * b * b * node;
-      for (int i = 0; i < b * b; ++i) D[i] += c[b + i];
-    }
+  /// What a panel left for the first node of the next one.
+  void add_carry(int p, double* r, double* next_D, double* rhs = nullptr) {
+    const Chain& chain = model.chain(panels[p].line);
+    const int b = chain.block;
+    const std::size_t dof = chain.dof(first_node_of_panel(panels[p].panel + 1));
+    const double* c = carry.data() + static_cast<std::size_t>(p) * carry_size;
+    for (int i = 0; i < b; ++i) r[dof + i] += c[i];
+    if (next_D)
+      for (int i = 0; i < b * b; ++i) next_D[i] += c[b + i];
+    if (rhs)
+      for (int i = 0; i < b; ++i) rhs[dof + i] -= c[i];
   }
+
+  /// Joints, bodies, spread loads and contact.
+  void add_beside(const State& state, const TangentWeights& weights, const TangentFloor& f, std::span<double> r, AddedBlocks blocks,
+                  std::vector<Elimination>& eliminations) const {
+    for (std::size_t k = 0; k < model.joints.size(); ++k) eliminations[k] = add_joint(model, state, model.joints[k], weights, f, r, blocks);
+    add_spread_loads(model, state, r);
+    add_bodies(model, state, r, weights, blocks);
+    add_seabed(model, state, r, weights, f.gauss_newton, blocks);
+  }
+
+  bool has_beside() const { return !(model.joints.empty() && model.bodies.empty() && model.spread_loads.empty()) || model.seabed; }
 };
 
 Assembler::Assembler(const Model& model, int threads) : model_(model), impl_(std::make_unique<Impl>(model, std::max(1, threads))) {}
@@ -173,35 +203,20 @@ void Assembler::tangent(const State& state, const TangentWeights& weights, const
   assert(r.size() == model_.unknowns);
   impl_->set_floor(floor);
   impl_->run(state, weights, r.data(), tangent.chain.values().data());
-  for (std::size_t k = 0; k < model_.joints.size(); ++k) {
-    const Joint& joint = model_.joints[k];
-    const JointElement e = evaluate_joint(model_, state, joint, weights, floor);
-    tangent.eliminations[k] = e.elimination;
-    const Chain& chain = model_.chain(joint.line);
-    const std::size_t first = chain.dof(joint.node - 1);
-    for (int i = 0; i < 12; ++i) r[first + i] += e.rx[i];
-    for (int i = 0; i < joint.inner_count(); ++i) r[joint.inner + i] = e.rc[i];
-    using Block = Eigen::Map<Eigen::Matrix<double, 6, 6>>;
-    Block(tangent.chain.D(chain, joint.node - 1)) += e.Kxx.topLeftCorner<6, 6>();
-    Block(tangent.chain.U(chain, joint.node - 1)) += e.Kxx.topRightCorner<6, 6>();
-    Block(tangent.chain.L(chain, joint.node - 1)) += e.Kxx.bottomLeftCorner<6, 6>();
-    Block(tangent.chain.D(chain, joint.node)) += e.Kxx.bottomRightCorner<6, 6>();
-  }
-  add_spread_loads(model_, state, r);
-  add_bodies(model_, state, r, weights, tangent.chain);
-  add_seabed(model_, state, r, weights, floor.gauss_newton, tangent.chain);
+  impl_->add_beside(state, weights, floor, r, AddedBlocks(tangent.chain), tangent.eliminations);
   for (const Support& support : model_.supports) constrain(model_, support, tangent.chain);
+}
+
+TangentPanels Assembler::tangent_panels(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r,
+                                        Tangent& tangent, std::span<double> rhs) const {
+  assert(r.size() == model_.unknowns && rhs.size() == model_.dofs);
+  return {*this, state, weights, floor, r, tangent, rhs};
 }
 
 void Assembler::reduce(Tangent& tangent, std::span<const double> r, std::span<double> rhs) const {
   assert(rhs.size() == model_.dofs);
   for (std::size_t i = 0; i < model_.dofs; ++i) rhs[i] = -r[i];
-  for (std::size_t k = 0; k < model_.joints.size(); ++k) {
-    const Joint& joint = model_.joints[k];
-    Elimination& e = tangent.eliminations[k];
-    e.rc = Eigen::Map<const Eigen::VectorXd>(&r[joint.inner], joint.inner_count());
-    Eigen::Map<Vector12>(&rhs[model_.dof(joint.line, joint.node - 1)]) += e.Kxc * (e.Kcc_inverse * e.rc);
-  }
+  for (std::size_t k = 0; k < model_.joints.size(); ++k) condense_inner(model_, model_.joints[k], r, tangent.eliminations[k], rhs);
   project(rhs);
 }
 
@@ -217,6 +232,68 @@ void Assembler::expand(const Tangent& tangent, std::span<const double> x, std::s
 
 void Assembler::project(std::span<double> r) const {
   for (const Support& support : model_.supports) project_support(model_, support, r);
+}
+
+TangentPanels::TangentPanels(const Assembler& assembler, const State& state, const TangentWeights& weights, const TangentFloor& floor,
+                             std::span<double> r, Tangent& tangent, std::span<double> rhs)
+    : assembler_(assembler), state_(state), weights_(weights), floor_(floor), r_(r), rhs_(rhs), tangent_(tangent) {
+  Assembler::Impl& impl = *assembler.impl_;
+  const Model& model = assembler.model_;
+  impl.set_floor(floor);
+  if (!impl.has_beside()) return;
+  impl.beside.assign(model.unknowns, 0.0);
+  impl.condensation.assign(model.dofs, 0.0);
+  impl.touched.assign(model.dofs / 3, 0);
+  impl.add_beside(state, weights, floor, impl.beside, AddedBlocks(tangent.chain, impl.touched), tangent.eliminations);
+  for (std::size_t k = 0; k < model.joints.size(); ++k)
+    condense_inner(model, model.joints[k], impl.beside, tangent.eliminations[k], impl.condensation);
+  std::copy(impl.beside.begin() + static_cast<std::ptrdiff_t>(model.dofs), impl.beside.end(), r.begin() + static_cast<std::ptrdiff_t>(model.dofs));
+}
+
+void TangentPanels::make(int chain_index, int panel, double* values) {
+  Assembler::Impl& impl = *assembler_.impl_;
+  const Model& model = assembler_.model_;
+  const Chain& chain = model.chain(chain_index);
+  impl.run_panel(impl.first_panel[chain_index] + panel, state_, weights_, r_.data(), values);
+  const bool beside = impl.has_beside();
+  if (beside) add_beside(chain, panel, values);
+  const std::size_t first = chain.dof(first_node_of_panel(panel)), end = first + chain.block * nodes_of_panel(panel, chain.nodes);
+  for (std::size_t i = first; i < end; ++i) rhs_[i] = -r_[i];
+  if (beside && !model.joints.empty())
+    for (std::size_t i = first; i < end; ++i) rhs_[i] += impl.condensation[i];
+  for (const Support& support : model.supports) {
+    const int node = support.node - first_node_of_panel(panel);
+    if (support.line != chain_index || node < 0 || node >= nodes_of_panel(panel, chain.nodes)) continue;
+    const int b2 = chain.block * chain.block, coupling = std::max(node - 1, 0);
+    constrain(model, support, values + 3 * b2 * node, values + (3 * coupling + 1) * b2, values + (3 * coupling + 2) * b2);
+    project_support(model, support, rhs_);
+  }
+}
+
+void TangentPanels::add_beside(const Chain& chain, int panel, double* values) {
+  const Assembler::Impl& impl = *assembler_.impl_;
+  const int b2 = chain.block * chain.block, first = first_node_of_panel(panel);
+  for (int i = 0; i < nodes_of_panel(panel, chain.nodes); ++i) {
+    const int node = first + i;
+    if (!impl.touched[AddedBlocks::place(chain, node)]) continue;
+    const double* added = tangent_.chain.D(chain, node);
+    const int blocks = node + 1 < chain.nodes ? 3 : 1;
+    for (int k = 0; k < blocks * b2; ++k) values[3 * b2 * i + k] += added[k];
+  }
+  const std::size_t from = chain.dof(first), to = from + chain.block * nodes_of_panel(panel, chain.nodes);
+  for (std::size_t i = from; i < to; ++i) r_[i] += impl.beside[i];
+}
+
+void TangentPanels::add_carry(int chain_index, int panel, double* next_D) {
+  Assembler::Impl& impl = *assembler_.impl_;
+  const int p = impl.first_panel[chain_index] + panel;
+  impl.add_carry(p, r_.data(), next_D, rhs_.data());
+}
+
+const BlockTridiagonal& TangentPanels::whole() {
+  assembler_.tangent(state_, weights_, floor_, r_, tangent_);
+  assembler_.reduce(tangent_, r_, rhs_);
+  return tangent_.chain;
 }
 
 }  // namespace hawser

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "assembly/block_tridiagonal.hpp"
+#include "assembly/matrix_panels.hpp"
 #include "assembly/model.hpp"
 #include "assembly/state.hpp"
 
@@ -36,6 +37,8 @@ struct Tangent {
   std::vector<Elimination> eliminations;  // one per Model::joints
   int negative_inner_pivots() const;
 };
+
+class TangentPanels;
 
 /// Below this many elements one thread does all: starting a parallel region costs about as much as the sweep of a thousand (bench/README.md).
 inline constexpr int serial_below = 2000;
@@ -59,6 +62,10 @@ class Assembler {
   /// Residual and tangent together.
   void tangent(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r, Tangent& tangent) const;
 
+  /// The same and `reduce`, made panel by panel for LinearSolver::factorize_and_solve; one at a time. r and rhs are complete when all panels are.
+  TangentPanels tangent_panels(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r, Tangent& tangent,
+                               std::span<double> rhs) const;
+
   /// rhs (Model::dofs) = -(R condensed), zero in constrained directions.
   void reduce(Tangent& tangent, std::span<const double> r, std::span<double> rhs) const;
 
@@ -69,9 +76,31 @@ class Assembler {
   void project(std::span<double> r) const;
 
  private:
+  friend class TangentPanels;
   struct Impl;
   const Model& model_;
   std::unique_ptr<Impl> impl_;
+};
+
+/// Refers to everything it was made of.
+class TangentPanels final : public MatrixPanels {
+ public:
+  void make(int chain, int panel, double* values) override;
+  void add_carry(int chain, int panel, double* next_D) override;
+  const BlockTridiagonal& whole() override;
+
+ private:
+  friend class Assembler;
+  TangentPanels(const Assembler& assembler, const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r,
+                Tangent& tangent, std::span<double> rhs);
+  void add_beside(const Chain& chain, int panel, double* values);
+
+  const Assembler& assembler_;
+  const State& state_;
+  TangentWeights weights_;
+  TangentFloor floor_;
+  std::span<double> r_, rhs_;
+  Tangent& tangent_;  // its blocks: only what is beside the sweep, until whole() is asked for
 };
 
 }  // namespace hawser

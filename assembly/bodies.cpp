@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include <Eigen/Geometry>
-
 #include "assembly/element.hpp"
 
 namespace hawser {
@@ -61,12 +59,12 @@ void add_bodies(const Model& model, const State& state, std::span<double> r) {
   for (const Body& body : model.bodies) add_force(model, body, body_force(model, state, body, TangentWeights{0.0, 0.0, 0.0}), r);
 }
 
-void add_bodies(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, BlockTridiagonal& matrix) {
+void add_bodies(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, AddedBlocks blocks) {
   for (const Body& body : model.bodies) {
     const BodyForce f = body_force(model, state, body, weights);
     add_force(model, body, f, r);
     const Chain& c = model.chain(body.line);
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>> D(matrix.D(c, body.node), c.block, c.block);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>> D(blocks.D(c, body.node), c.block, c.block);
     D.topLeftCorner(3, 3) += f.d_r;
     if (c.block == 6) D.bottomRightCorner(3, 3) += f.d_slope;
   }

@@ -7,14 +7,14 @@
 
 #include <span>
 
-#include "assembly/block_tridiagonal.hpp"
+#include "assembly/added_blocks.hpp"
 #include "assembly/model.hpp"
 #include "assembly/state.hpp"
 
 namespace hawser {
 
 void add_bodies(const Model& model, const State& state, std::span<double> r);
-void add_bodies(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, BlockTridiagonal& matrix);
+void add_bodies(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, AddedBlocks blocks);
 
 /// On elements without a joint; a joint's element takes its own (element.hpp).
 void add_spread_loads(const Model& model, const State& state, std::span<double> r);

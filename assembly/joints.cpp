@@ -102,6 +102,21 @@ JointElement evaluate_joint(const Model& model, const State& state, const Joint&
   return out;
 }
 
+Elimination add_joint(const Model& model, const State& state, const Joint& joint, const TangentWeights& weights, const TangentFloor& floor,
+                      std::span<double> r, AddedBlocks& blocks) {
+  const JointElement e = evaluate_joint(model, state, joint, weights, floor);
+  const Chain& chain = model.chain(joint.line);
+  const int left = joint.node - 1;
+  Eigen::Map<Vector12>(&r[chain.dof(left)]) += e.rx;
+  for (int i = 0; i < joint.inner_count(); ++i) r[joint.inner + i] = e.rc[i];
+  using Block = Eigen::Map<Eigen::Matrix<double, 6, 6>>;
+  Block(blocks.D(chain, left)) += e.Kxx.topLeftCorner<6, 6>();
+  Block(blocks.U(chain, left)) += e.Kxx.topRightCorner<6, 6>();
+  Block(blocks.L(chain, left)) += e.Kxx.bottomLeftCorner<6, 6>();
+  Block(blocks.D(chain, joint.node)) += e.Kxx.bottomRightCorner<6, 6>();
+  return e.elimination;
+}
+
 void joint_residual(const Model& model, const State& state, const Joint& joint, Vector12& rx, Eigen::Ref<Eigen::VectorXd> rc) {
   const Vector12 f = element_force(model, state, joint.line, joint.element);
   if (joint.jump == Jump::scaled) {

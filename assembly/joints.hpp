@@ -5,6 +5,7 @@
 //   dR/dz = K_k db/dz + K_c db_dot/dz + K_m db_ddot/dz,  each weighted;  R_r' = mu f_b,  R_mu = r'.f_b.
 #pragma once
 
+#include "assembly/added_blocks.hpp"
 #include "assembly/assembler.hpp"
 #include "assembly/element.hpp"
 
@@ -19,6 +20,10 @@ struct JointElement {
 };
 
 JointElement evaluate_joint(const Model& model, const State& state, const Joint& joint, const TangentWeights& weights, const TangentFloor& floor);
+
+/// Adds the condensed element to residual and blocks, writes the residual of its inner unknowns.
+Elimination add_joint(const Model& model, const State& state, const Joint& joint, const TangentWeights& weights, const TangentFloor& floor,
+                      std::span<double> r, AddedBlocks& blocks);
 
 /// Residual alone: rx and rc.
 void joint_residual(const Model& model, const State& state, const Joint& joint, Vector12& rx, Eigen::Ref<Eigen::VectorXd> rc);

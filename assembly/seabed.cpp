@@ -269,10 +269,10 @@ void add_seabed(const Model& model, const State& state, std::span<double> r) {
                    [&](const Chain& chain, int node, const Vector12& f, const Matrix12&) { add_force(chain, node, f, r); });
 }
 
-void add_seabed(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, bool secant, BlockTridiagonal& matrix) {
+void add_seabed(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, bool secant, AddedBlocks added) {
   for_each_contact(model, state, weights, secant, true, [&](const Chain& chain, int node, const Vector12& f, const Matrix12& K) {
     add_force(chain, node, f, r);
-    double* blocks[2][2] = {{matrix.D(chain, node), matrix.U(chain, node)}, {matrix.L(chain, node), matrix.D(chain, node + 1)}};
+    double* blocks[2][2] = {{added.D(chain, node), added.U(chain, node)}, {added.L(chain, node), added.D(chain, node + 1)}};
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {
         Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>> block(blocks[i][j], chain.block, chain.block);

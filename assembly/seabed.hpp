@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "assembly/block_tridiagonal.hpp"
+#include "assembly/added_blocks.hpp"
 #include "assembly/element.hpp"
 #include "assembly/model.hpp"
 
@@ -24,7 +24,7 @@ namespace hawser {
 /// On elements without a joint; a joint's element takes its own (element.hpp).
 void add_seabed(const Model& model, const State& state, std::span<double> r);
 /// secant: the tangent of friction is positive (a floored tangent).
-void add_seabed(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, bool secant, BlockTridiagonal& matrix);
+void add_seabed(const Model& model, const State& state, std::span<double> r, const TangentWeights& weights, bool secant, AddedBlocks blocks);
 
 /// Contact of one element with these nodal vectors, added to f and, where it is given, to K; false: no contact.
 bool add_contact(const Model& model, int line, int element, const ElementState<double>& x, const TangentWeights& weights, bool secant, Vector12& f,

@@ -24,24 +24,27 @@ double diagonal_scale(const BlockMap& D, int first) {
 
 }  // namespace
 
-void constrain(const Model& model, const Support& support, BlockTridiagonal& matrix) {
-  const Chain& c = model.chain(support.line);
-  const int b = c.block, i = support.node;
+void constrain(const Model& model, const Support& support, double* D_at, double* U_at, double* L_at) {
+  const int b = model.chain(support.line).block;
   const Block Q = projector(support, b);
-  const auto map = [b](double* p) { return BlockMap(p, b, b); };
-  BlockMap D = map(matrix.D(c, i));
+  BlockMap D(D_at, b, b), U(U_at, b, b), L(L_at, b, b);
   Block held = Block::Identity(b, b) - Q;
   for (int first = 0; first < b; first += 3) held.middleRows(first, 3) *= diagonal_scale(D, first);
   const Block projected = Q * D * Q;
   D = projected + held;
-  if (i + 1 < c.nodes) {
-    map(matrix.U(c, i)) = (Q * map(matrix.U(c, i))).eval();
-    map(matrix.L(c, i)) = (map(matrix.L(c, i)) * Q).eval();
+  if (support.node == 0) {
+    U = (Q * U).eval();
+    L = (L * Q).eval();
+  } else {
+    U = (U * Q).eval();
+    L = (Q * L).eval();
   }
-  if (i > 0) {
-    map(matrix.U(c, i - 1)) = (map(matrix.U(c, i - 1)) * Q).eval();
-    map(matrix.L(c, i - 1)) = (Q * map(matrix.L(c, i - 1))).eval();
-  }
+}
+
+void constrain(const Model& model, const Support& support, BlockTridiagonal& matrix) {
+  const Chain& c = model.chain(support.line);
+  const int coupling = std::max(support.node - 1, 0);
+  constrain(model, support, matrix.D(c, support.node), matrix.U(c, coupling), matrix.L(c, coupling));
 }
 
 void project_support(const Model& model, const Support& support, std::span<double> r) {

@@ -9,7 +9,9 @@
 
 namespace hawser {
 
-/// D <- Q D Q + s (I - Q), U and L of the node projected alike; s keeps the size of the diagonal.
+/// D <- Q D Q + s (I - Q), U and L that couple the node projected alike; s keeps the size of the diagonal.
+/// D, U, L: of the node, where it is the first of its line; U, L: of the node before it, where it is the last.
+void constrain(const Model& model, const Support& support, double* D, double* U, double* L);
 void constrain(const Model& model, const Support& support, BlockTridiagonal& matrix);
 
 /// r <- Q r at the node.

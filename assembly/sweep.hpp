@@ -8,10 +8,10 @@
 
 #include "assembly/kernel.hpp"
 #include "assembly/observed.hpp"
+#include "assembly/panel.hpp"
 
 namespace hawser {
 
-inline constexpr int panel_elements = 64;
 inline constexpr int table_padding = 16;       // doubles that may be read beyond the end of every table
 inline constexpr int carry_size = 6 + 36;      // residual and block of one node
 inline constexpr int node_property_count = 3;  // axial terms at nodes: sum of share*EA, share*damping, share*least tension
@@ -24,7 +24,7 @@ struct SweepLine {
   Weights weights;
   CurrentTable current;
   double* r;       // the line's residual
-  double* blocks;  // the line's D, U, L; null: residual alone
+  double* blocks;  // D, U, L of the panel's nodes; null: residual alone
   double* carry;   // carry_size doubles a panel
 };
 

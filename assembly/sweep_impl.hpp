@@ -161,7 +161,7 @@ HAWSER_INLINE void write_end(const SweepLine& line, const Running<B, W>& before,
   double* r = line.r + static_cast<long>(B) * line.elements;
   for (int c = 0; c < B; ++c) r[c] = before.f[c].v[lane] + (c < 3 ? 0.0 : axial.f[c % 3][local]);
   if constexpr (want == Want::tangent) {
-    double* D = line.blocks + 3L * B * B * line.elements;
+    double* D = line.blocks + 3L * B * B * local;
     for (int c = 0; c < B * B; ++c) D[c] = before.K[c].v[lane];
     if constexpr (B == 6)
       for (int c = 0; c < 9; ++c) D[block_row<6>(1, 1, c)] += axial.K[c][local];
@@ -196,7 +196,7 @@ void sweep_panel(const SweepLine& line, int panel) {
     if constexpr (want == Want::tangent) {
       S rows[3 * B * B];
       fill_rows(in, axial, e, before, rows);
-      store_transposed<3 * B * B, W>(rows, line.blocks + 3L * B * B * (first + e), lanes);
+      store_transposed<3 * B * B, W>(rows, line.blocks + 3L * B * B * e, lanes);
     }
   }
   if (first + count == line.elements) {

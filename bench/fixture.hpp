@@ -105,6 +105,7 @@ struct MovingLine {
         d(model.unknowns) {}
 
   void assemble() { assembler.tangent(state, step_weights(), TangentFloor{}, r, tangent); }
+  TangentPanels panels() { return assembler.tangent_panels(state, step_weights(), TangentFloor{}, r, tangent, rhs); }
 
   /// State, residual, properties and, where asked for, blocks: what a pass over the elements reads and writes.
   double bytes(bool with_tangent) const {

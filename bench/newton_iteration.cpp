@@ -2,7 +2,8 @@
 //
 //   hawser_bench --benchmark_filter=newton
 //
-// full:   residual + tangent, reduce, factorize, solve, expand
+// full:   residual, tangent, factors and increment: panel by panel in the chain solver, one after the other in the others
+// apart:  the same one after the other in the chain solver: what stages.cpp takes apart
 // reused: residual, reduce, solve, expand with the factors of an earlier iteration
 // CHOLMOD factorizes the symmetric part (a modified Newton); forming it is counted.
 #include <algorithm>
@@ -16,12 +17,21 @@ namespace {
 using namespace hawser;
 using namespace hawser::bench;
 
-void full_iteration(MovingLine& line, LinearSolver& solver) {
+enum class Way { full, apart, reused };
+
+void iteration_apart(MovingLine& line, LinearSolver& solver) {
   line.assemble();
   line.assembler.reduce(line.tangent, line.r, line.rhs);
   if (!solver.takes_unsymmetric()) line.tangent.chain.symmetrize();
   benchmark::DoNotOptimize(solver.factorize(line.tangent.chain).smallest_pivot);
   solver.solve(line.rhs);
+  line.assembler.expand(line.tangent, line.rhs, line.d);
+}
+
+void full_iteration(MovingLine& line, LinearSolver& solver) {
+  if (!solver.takes_unsymmetric()) return iteration_apart(line, solver);
+  TangentPanels panels = line.panels();
+  benchmark::DoNotOptimize(solver.factorize_and_solve(panels, line.rhs).smallest_pivot);
   line.assembler.expand(line.tangent, line.rhs, line.d);
 }
 
@@ -32,20 +42,19 @@ void reused_iteration(MovingLine& line, LinearSolver& solver) {
   line.assembler.expand(line.tangent, line.rhs, line.d);
 }
 
-void newton(benchmark::State& state, ModelChoice family, const NamedSolver& named, bool reused) {
+void newton(benchmark::State& state, ModelChoice family, const NamedSolver& named, Way way) {
   const int elements = static_cast<int>(state.range(0));
   MovingLine line(family, elements);
   const auto solver = named.make();
   solver->analyze(line.tangent.chain);
   full_iteration(line, *solver);
+  const auto iteration = way == Way::full ? full_iteration : way == Way::apart ? iteration_apart : reused_iteration;
   for (auto _ : state) {
-    if (reused) {
-      reused_iteration(line, *solver);
-    } else {
-      full_iteration(line, *solver);
-    }
+    iteration(line, *solver);
     benchmark::ClobberMemory();
   }
+  line.assemble();  // panels leave no matrix
+  if (!solver->takes_unsymmetric()) line.tangent.chain.symmetrize();
   std::vector<double> b(line.model.dofs);
   line.assembler.reduce(line.tangent, line.r, b);
   state.counters["s_per_element"] = per_element(elements);
@@ -54,13 +63,13 @@ void newton(benchmark::State& state, ModelChoice family, const NamedSolver& name
 }
 
 const bool registered = [] {
-  for (const bool reused : {false, true})
+  for (const auto& [way, word] : {std::pair{Way::full, "full"}, {Way::apart, "apart"}, {Way::reused, "reused"}})
     for (const NamedSolver& solver : compared_solvers())
       for (const ModelChoice family : families) {
         const bool chain = solver.name == "chain";
-        if (!chain && family != ModelChoice::beam) continue;
-        const std::string name = std::string("newton/") + (reused ? "reused/" : "full/") + solver.name + "/" + word_of(family);
-        benchmark::RegisterBenchmark(name.c_str(), newton, family, solver, reused)
+        if (!chain && (family != ModelChoice::beam || way == Way::apart)) continue;
+        const std::string name = std::string("newton/") + word + "/" + solver.name + "/" + word_of(family);
+        benchmark::RegisterBenchmark(name.c_str(), newton, family, solver, way)
             ->RangeMultiplier(10)
             ->Range(100, chain && family == ModelChoice::beam ? 1000000 : 100000)
             ->Unit(benchmark::kMicrosecond);

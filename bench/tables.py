@@ -15,7 +15,8 @@ SOLVERS = {'chain': 'chain', 'band': 'band (LAPACK)', 'sundials': 'SUNDIALS, SUN
            'umfpack': 'UMFPACK', 'klu': 'KLU, refactorization'}
 FAMILIES = ('bar', 'cable', 'beam')
 STAGES = {'residual': 'assembly/residual/beam/wet', 'tangent': 'assembly/tangent/beam/wet', 'factorize': 'linear/factorize/chain',
-          'solve': 'linear/solve/chain', 'full iteration': 'newton/full/chain/beam', 'reused': 'newton/reused/chain/beam'}
+          'solve': 'linear/solve/chain', 'full iteration': 'newton/full/chain/beam',
+          'full, assembly first': 'newton/apart/chain/beam', 'reused': 'newton/reused/chain/beam'}
 
 THREAD_STAGES = ('residual', 'tangent', 'factorize', 'solve', 'newton')
 

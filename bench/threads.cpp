@@ -22,14 +22,14 @@ struct Iteration {
   Iteration(int elements, int threads)
       : line(ModelChoice::beam, elements, true, threads), solver(make_linear_solver(LinearSolverKind::chain, threads)) {
     solver->analyze(line.tangent.chain);
+    line.assemble();
+    solver->factorize(line.tangent.chain);
     full();
   }
 
   void full() {
-    line.assemble();
-    line.assembler.reduce(line.tangent, line.r, line.rhs);
-    solver->factorize(line.tangent.chain);
-    solver->solve(line.rhs);
+    TangentPanels panels = line.panels();
+    solver->factorize_and_solve(panels, line.rhs);
     line.assembler.expand(line.tangent, line.rhs, line.d);
   }
 

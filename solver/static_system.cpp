@@ -54,24 +54,25 @@ double StaticSystem::least_tension() { return least_strain_tension(model_, state
 
 bool StaticSystem::solve(double floor) {
   const bool exact = floor == 0.0 && residual_ <= exact_below_ * reference_force_ && least_tension() < -10.0 * least_kept_;
-  assembler_.tangent(state_, static_weights, {floor, !exact, floor > 0.0}, r_, tangent_);
-  assembler_.reduce(tangent_, r_, rhs_);
+  TangentPanels panels = assembler_.tangent_panels(state_, static_weights, {floor, !exact, floor > 0.0}, r_, tangent_, rhs_);
+  factor_report_ = factorize_and_solve(panels);
   assembler_.project(r_);
-  factor_report_ = factorize();
   if (factor_report_.status != FactorStatus::ok) return false;
-  linear_.solve(rhs_);
   assembler_.expand(tangent_, rhs_, d_);
   return true;
 }
 
-FactorReport StaticSystem::factorize() {
+FactorReport StaticSystem::factorize_and_solve(TangentPanels& panels) {
   if (!modified_) {
-    FactorReport report = linear_.factorize(tangent_.chain);
+    const FactorReport report = linear_.factorize_and_solve(panels, rhs_);
     if (report.status != FactorStatus::not_applicable) return report;
   }
   modified_ = true;
+  panels.whole();
   tangent_.chain.symmetrize();
-  return linear_.factorize(tangent_.chain);
+  const FactorReport report = linear_.factorize(tangent_.chain);
+  if (report.status == FactorStatus::ok) linear_.solve(rhs_);
+  return report;
 }
 
 void StaticSystem::advance(double factor) {

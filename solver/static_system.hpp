@@ -33,7 +33,7 @@ class StaticSystem : public NewtonSystem {
   const FactorReport& factor_report() const { return factor_report_; }
 
  private:
-  FactorReport factorize();
+  FactorReport factorize_and_solve(TangentPanels& panels);
 
   const Assembler& assembler_;
   const Model& model_;

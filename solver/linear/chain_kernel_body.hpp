@@ -49,6 +49,12 @@ struct Watch {
     note_pivots(p, p);
     negative += Two::Rows{0, -(p < 0.0)};
   }
+  /// The first node of a run: its D has been met before.
+  HAWSER_INLINE void go_on(double given_before) {
+    start();
+    given.set_all(1.0);
+    given.set_all(given_before / given.sum());
+  }
   HAWSER_INLINE void end_node() {
     const double g = worked.sum() / given.sum();
     growth_squared = g > growth_squared ? g : growth_squared;
@@ -121,9 +127,12 @@ struct Elimination {
   double* next_factors;
   Node<B> node;
 
-  HAWSER_INLINE void start(int nodes, const double* chain_values, double* chain_factors) {
-    values = chain_values + At::first(nodes), factors = chain_factors + At::first(nodes);
+  HAWSER_INLINE void stand_at(const double* values_here, double* factors_here) {
+    values = values_here, factors = factors_here;
     next_values = values + At::next, next_factors = factors + At::next;
+  }
+  /// Takes over the D of the front's first node.
+  HAWSER_INLINE void start() {
     node.watch.start();
     for_each_pair<B>([&] HAWSER_PAIR {
       constexpr int from = At::diagonal + 2 * B * pair.value;
@@ -134,10 +143,8 @@ struct Elimination {
   }
   HAWSER_INLINE void advance() {
     node.watch.end_node();
-    if constexpr (Side == Front::right) {
-      prefetch<24 * At::block, false>(values + fetched_ahead_to_factorize * At::step);
-      prefetch<24 * At::block, true>(factors + fetched_ahead_to_factorize * At::step);
-    }
+    if constexpr (Side == Front::right) prefetch<24 * At::block, false>(values + fetched_ahead_to_factorize * At::step);
+    prefetch<24 * At::block, true>(factors + fetched_ahead_to_factorize * At::step);
     values += At::step, factors += At::step, next_values += At::step, next_factors += At::step;
   }
   /// The right front leaves its share of the middle node aside, so that the left one need not wait.
@@ -173,16 +180,29 @@ struct Elimination {
 };
 
 template <int B, Front Side>
-void factorize_front(int nodes, const double* values, double* factors, PivotWatch& watch) {
-  const int count = Blocks<B, Side>::nodes_of(nodes);
-  if (count == 0) return;
+void factorize_part(int nodes, FrontRun run, const double* values, double* factors, double& given, PivotWatch& watch) {
+  using At = Blocks<B, Side>;
+  const int all = At::nodes_of(nodes), end = run.first + run.count;
+  if (run.count == 0) return;
   Elimination<B, Side> front;
-  front.start(nodes, values, factors);
-  for (int k = 0; k < count; ++k) {
-    if (k + 1 == count) front.meet(nodes, factors);
+  front.stand_at(values, factors + At::first(nodes) + static_cast<long>(At::step) * run.first);
+  if (run.first == 0)
+    front.start();
+  else
+    front.node.watch.go_on(given);
+  for (int k = run.first; k < end; ++k) {
+    if (k + 1 == all) front.meet(nodes, factors);
     front.eliminate_node();
   }
+  given = front.node.watch.given.sum();
   front.node.watch.add_to(watch);
+}
+
+template <int B, Front Side>
+void factorize_front(int nodes, const double* values, double* factors, PivotWatch& watch) {
+  using At = Blocks<B, Side>;
+  double given = 0.0;
+  factorize_part<B, Side>(nodes, {Side, 0, At::nodes_of(nodes)}, values + At::first(nodes), factors, given, watch);
 }
 
 template <int B>
@@ -191,7 +211,12 @@ void factorize_both(int nodes, const double* values, double* factors, PivotWatch
   if (pairs == 0) return factorize_front<B, Front::left>(nodes, values, factors, watch);
   Elimination<B, Front::left> left;
   Elimination<B, Front::right> right;
-  left.start(nodes, values, factors), right.start(nodes, values, factors);
+  const auto start = [&]<Front Side>(Elimination<B, Side> & front) __attribute__((always_inline)) {
+    constexpr auto first = Blocks<B, Side>::first;
+    front.stand_at(values + first(nodes), factors + first(nodes));
+    front.start();
+  };
+  start(left), start(right);
   for (int k = 0; k < pairs; ++k) {
     if (k + 1 == pairs) right.meet(nodes, factors);
     for_each_pair<B>([&] HAWSER_PAIR { left.template reduce<pair.value>(), right.template reduce<pair.value>(); });
@@ -205,7 +230,6 @@ void factorize_both(int nodes, const double* values, double* factors, PivotWatch
 template <int B>
 void factorize_middle_node(int nodes, const double* values, double* factors, PivotWatch& watch) {
   using Left = Blocks<B, Front::left>;
-  const double* given = values + Left::middle(nodes);
   double* middle = factors + Left::middle(nodes);
   const double* from_right = factors + Left::left_at_middle(nodes);
   Node<B> node;
@@ -213,7 +237,7 @@ void factorize_middle_node(int nodes, const double* values, double* factors, Piv
   for_each_pair<B>([&] HAWSER_PAIR {
     constexpr int first = 2 * B * pair.value;
     PairOf<B, pair.value> d, r;
-    d.load_values(given + first), d.add_squares_to(node.watch.given);
+    d.load_values(values + first), d.add_squares_to(node.watch.given);
     if (nodes > 1) d.load(middle + first);
     if (nodes > 2) r.load(from_right + first), d.add(r);
     d.store(middle + first);
@@ -235,6 +259,22 @@ void factorize_any(int nodes, const double* values, double* factors, Front front
 }
 
 template <int B>
+void factorize_run_any(int nodes, FrontRun run, const double* values, double* factors, double& given, PivotWatch& watch) {
+  if (run.front == Front::left)
+    factorize_part<B, Front::left>(nodes, run, values, factors, given, watch);
+  else
+    factorize_part<B, Front::right>(nodes, run, values, factors, given, watch);
+}
+
+template <int B>
+void forward_run_any(int nodes, FrontRun run, const double* factors, double* b) {
+  if (run.front == Front::left)
+    forward_part<B, Front::left>(nodes, run, factors, b);
+  else
+    forward_part<B, Front::right>(nodes, run, factors, b);
+}
+
+template <int B>
 void forward_any(int nodes, const double* factors, double* b, Front front) {
   if (front == Front::both) forward_both<B>(nodes, factors, b);
   if (front == Front::left) forward_front<B, Front::left>(nodes, factors, b);
@@ -252,12 +292,20 @@ void factorize(int block, int nodes, const double* values, double* factors, Fron
   block == 3 ? factorize_any<3>(nodes, values, factors, front, watch) : factorize_any<6>(nodes, values, factors, front, watch);
 }
 
+void factorize_run(int block, int nodes, FrontRun run, const double* values, double* factors, double& given, PivotWatch& watch) {
+  block == 3 ? factorize_run_any<3>(nodes, run, values, factors, given, watch) : factorize_run_any<6>(nodes, run, values, factors, given, watch);
+}
+
 void factorize_middle(int block, int nodes, const double* values, double* factors, PivotWatch& watch) {
   block == 3 ? factorize_middle_node<3>(nodes, values, factors, watch) : factorize_middle_node<6>(nodes, values, factors, watch);
 }
 
 void forward(int block, int nodes, const double* factors, double* b, Front front) {
   block == 3 ? forward_any<3>(nodes, factors, b, front) : forward_any<6>(nodes, factors, b, front);
+}
+
+void forward_run(int block, int nodes, FrontRun run, const double* factors, double* b) {
+  block == 3 ? forward_run_any<3>(nodes, run, factors, b) : forward_run_any<6>(nodes, run, factors, b);
 }
 
 void solve_middle(int block, int nodes, const double* factors, double* b) {

@@ -88,6 +88,11 @@ struct Substitution {
     start_at(left ? 0 : nodes - 1, factors, chain_b);
     forward<true>();
   }
+  /// At the front's node k, after those before it.
+  HAWSER_INLINE void go_on_forward(int nodes, int k, const double* factors, double* chain_b) {
+    start_at(left ? k : nodes - 1 - k, factors, chain_b);
+    HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = b[i - towards_middle * B];
+  }
   HAWSER_INLINE void start_backward(int nodes, const double* factors, double* chain_b) {
     start_at(nodes / 2, factors, chain_b);
     HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = b[i];
@@ -96,12 +101,20 @@ struct Substitution {
 };
 
 template <int B, Front Side>
-void forward_front(int nodes, const double* factors, double* b) {
-  const int count = Blocks<B, Side>::nodes_of(nodes);
-  if (count == 0) return;
+void forward_part(int nodes, FrontRun run, const double* factors, double* b) {
+  if (run.count == 0) return;
   Substitution<B, Side> front;
-  front.start_forward(nodes, factors, b);
-  for (int k = 1; k < count; ++k) front.template forward<false>();
+  int k = run.first;
+  if (k == 0)
+    front.start_forward(nodes, factors, b), ++k;
+  else
+    front.go_on_forward(nodes, k, factors, b);
+  for (; k < run.first + run.count; ++k) front.template forward<false>();
+}
+
+template <int B, Front Side>
+void forward_front(int nodes, const double* factors, double* b) {
+  forward_part<B, Side>(nodes, {Side, 0, Blocks<B, Side>::nodes_of(nodes)}, factors, b);
 }
 
 template <int B>

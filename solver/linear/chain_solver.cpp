@@ -11,6 +11,7 @@
 #include "solver/linear/backends.hpp"
 #include "solver/linear/band_solver.hpp"
 #include "solver/linear/chain_kernel.hpp"
+#include "solver/linear/chain_panels.hpp"
 #include "solver/linear/factor_reports.hpp"
 
 namespace hawser {
@@ -20,7 +21,7 @@ namespace {
 constexpr double growth_limit = 100.0;  // 1e-14 / eps
 
 // Measured (bench/README.md, threads): two threads gain 1.5 in factorizing 10^4 nodes, but nothing in a solve of as many, which takes 0.3 ms.
-constexpr int nodes_to_share_factorization = 4000, nodes_to_share_solve = 40000;
+constexpr int nodes_to_share_factorization = 4000, nodes_to_share_panels = 2000, nodes_to_share_solve = 40000;
 
 class ChainSolver final : public LinearSolver {
  public:
@@ -41,14 +42,22 @@ class ChainSolver final : public LinearSolver {
     assert(matrix.chains().size() == chains_.size());
     PivotWatch watch;
     for (const Chain& c : chains_) factorize(c, matrix.values().data() + c.first_value, watch);
-    const bool pivots_usable = watch.not_finite == 0.0 && usable_pivot(watch.smallest) && usable_pivot(watch.largest);
-    fell_back_ = !(pivots_usable && watch.growth_squared <= growth_limit * growth_limit);
-    if (fell_back_) return factorize_pivoted(matrix);
+    fell_back_ = !accurate(watch);
+    return fell_back_ ? factorize_pivoted(matrix) : report_of(watch);
+  }
 
-    FactorReport report;
-    report.negative_pivots = watch.negative;
-    report.smallest_pivot = watch.smallest;
-    report.largest_pivot = watch.largest;
+  FactorReport factorize_and_solve(MatrixPanels& panels, std::span<double> b) override {
+    PivotWatch watch;
+    for (std::size_t i = 0; i < chains_.size(); ++i) {
+      const Chain& c = chains_[i];
+      panels_.start(kernel_, panels, static_cast<int>(i), c, factors_of(c), b.data() + c.first_dof);
+      eliminate_panels(c, watch);
+      backward(c, b.data() + c.first_dof);
+    }
+    fell_back_ = !accurate(watch);
+    if (!fell_back_) return report_of(watch);
+    const FactorReport report = factorize_pivoted(panels.whole());
+    if (report.status == FactorStatus::ok) pivoted_->solve(b);
     return report;
   }
 
@@ -60,6 +69,19 @@ class ChainSolver final : public LinearSolver {
   std::size_t bytes() const override { return sizeof(double) * factors_.size() + (pivoted_ ? pivoted_->bytes() : 0); }
 
  private:
+  static bool accurate(const PivotWatch& watch) {
+    const bool pivots_usable = watch.not_finite == 0.0 && usable_pivot(watch.smallest) && usable_pivot(watch.largest);
+    return pivots_usable && watch.growth_squared <= growth_limit * growth_limit;
+  }
+
+  static FactorReport report_of(const PivotWatch& watch) {
+    FactorReport report;
+    report.negative_pivots = watch.negative;
+    report.smallest_pivot = watch.smallest;
+    report.largest_pivot = watch.largest;
+    return report;
+  }
+
   // Two threads take a front each. The numbers are those of one thread.
   void factorize(const Chain& c, const double* values, PivotWatch& watch) {
     if (threads_ > 1 && c.nodes >= nodes_to_share_factorization) {
@@ -74,25 +96,45 @@ class ChainSolver final : public LinearSolver {
     } else {
       kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::both, watch);
     }
-    kernel_.factorize_middle(c.block, c.nodes, values, factors_of(c), watch);
+    kernel_.factorize_middle(c.block, c.nodes, values + std::size_t{3} * c.block * c.block * (c.nodes / 2), factors_of(c), watch);
+  }
+
+  void eliminate_panels(const Chain& c, PivotWatch& watch) {
+    if (threads_ > 1 && c.nodes >= nodes_to_share_panels) {
+      PivotWatch watch_right;
+#pragma omp parallel sections num_threads(2)
+      {
+        panels_.eliminate(Front::left, watch);
+#pragma omp section
+        panels_.eliminate(Front::right, watch_right);
+      }
+      watch.add(watch_right);
+    } else {
+      panels_.eliminate(Front::left, watch);
+      panels_.eliminate(Front::right, watch);
+    }
+    panels_.eliminate_middle(watch);
   }
 
   void solve(const Chain& c, double* b) {
-    const auto fronts = [&](auto substitute) {
-      if (threads_ > 1 && c.nodes >= nodes_to_share_solve) {
-#pragma omp parallel sections num_threads(2)
-        {
-          substitute(c.block, c.nodes, factors_of(c), b, Front::left);
-#pragma omp section
-          substitute(c.block, c.nodes, factors_of(c), b, Front::right);
-        }
-      } else {
-        substitute(c.block, c.nodes, factors_of(c), b, Front::both);
-      }
-    };
-    fronts(kernel_.forward);
+    substitute(kernel_.forward, c, b);
     kernel_.solve_middle(c.block, c.nodes, factors_of(c), b);
-    fronts(kernel_.backward);
+    backward(c, b);
+  }
+
+  void backward(const Chain& c, double* b) { substitute(kernel_.backward, c, b); }
+
+  void substitute(decltype(ChainKernel::backward) fronts, const Chain& c, double* b) {
+    if (threads_ > 1 && c.nodes >= nodes_to_share_solve) {
+#pragma omp parallel sections num_threads(2)
+      {
+        fronts(c.block, c.nodes, factors_of(c), b, Front::left);
+#pragma omp section
+        fronts(c.block, c.nodes, factors_of(c), b, Front::right);
+      }
+    } else {
+      fronts(c.block, c.nodes, factors_of(c), b, Front::both);
+    }
   }
 
   double* factors_of(const Chain& c) { return factors_.data() + c.first_value; }
@@ -113,6 +155,7 @@ class ChainSolver final : public LinearSolver {
   std::vector<Chain> chains_;
   AlignedVector<double> factors_;
   std::unique_ptr<BandSolver> pivoted_;
+  ChainPanels panels_;
   bool fell_back_ = false;
 };
 

@@ -39,6 +39,12 @@ const Backend& backend_of(LinearSolverKind kind) {
 
 }  // namespace
 
+FactorReport LinearSolver::factorize_and_solve(MatrixPanels& panels, std::span<double> b) {
+  const FactorReport report = factorize(panels.whole());
+  if (report.status == FactorStatus::ok) solve(b);
+  return report;
+}
+
 std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind, int threads) { return backend_of(kind).make(threads); }
 
 LinearSolverKind linear_solver_kind(std::string_view name) {

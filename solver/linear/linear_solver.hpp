@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assembly/block_tridiagonal.hpp"
+#include "assembly/matrix_panels.hpp"
 
 namespace hawser {
 
@@ -47,6 +47,10 @@ class LinearSolver {
 
   /// Solves in place: b becomes the solution. Only after a factorize that returned ok.
   virtual void solve(std::span<double> b) = 0;
+
+  /// Both at once for a matrix that is made panel by panel, with its right-hand side b, which becomes the solution. Factors stay for `solve`.
+  /// Solvers that cannot eliminate panels as they come take the whole matrix; where it is not_applicable, b is then the right-hand side.
+  virtual FactorReport factorize_and_solve(MatrixPanels& panels, std::span<double> b);
 
   /// Bytes held by factors and workspace after a factorize.
   virtual std::size_t bytes() const = 0;

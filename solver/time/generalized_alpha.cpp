@@ -78,7 +78,6 @@ StepReport GeneralizedAlpha::start(State& state) {
     if (report.status != StepStatus::ok) {
       return report;
     }
-    solve();
     ++report.iterations;
     for (std::size_t i = 0; i < increment_.size(); ++i) {
       trial_.a[i] += increment_[i];
@@ -128,14 +127,15 @@ StepStatus GeneralizedAlpha::iterate(const State& state, const TangentWeights& w
     previous = measure(report).force;
   }
   while (report.iterations < allowed_iterations(report)) {
-    if (!keep) {
+    if (keep) {
+      solve();
+    } else {
       const StepStatus status = linearize(weights, floor, report);
       if (status != StepStatus::ok) {
         return status;
       }
       previous = measure(report).force;
     }
-    solve();
     ++report.iterations;
     const auto [increment, turn] = system_.measure_increment(increment_);
     const double taken = turn > largest_turn_of_iteration ? largest_turn_of_iteration / turn : 1.0;
@@ -239,17 +239,19 @@ void GeneralizedAlpha::follow_prescribed(const TangentWeights& weights) {
   }
 }
 
-/// Residual, tangent and its factors at the trial state. A solver that refuses an unsymmetric matrix gets the symmetric
+/// Residual, tangent, its factors and the increment at the trial state. A solver that refuses an unsymmetric matrix gets the symmetric
 /// part: Newton is then a modified one.
 StepStatus GeneralizedAlpha::linearize(const TangentWeights& weights, const TangentFloor& floor, StepReport& report) {
   factors_.valid = false;
-  system_.tangent(trial_, weights, floor, residual_, tangent_);
+  FactorReport factors = system_.linearize(trial_, weights, floor, solver_, residual_, tangent_, condensed_);
   ++report.residuals;
   ++report.factorizations;
-  FactorReport factors = solver_.factorize(tangent_.chain);
   if (factors.status == FactorStatus::not_applicable) {
     tangent_.chain.symmetrize();
     factors = solver_.factorize(tangent_.chain);
+    if (factors.status == FactorStatus::ok) {
+      solver_.solve(condensed_);
+    }
     report.modified_newton = true;
     ++report.factorizations;
   }
@@ -257,6 +259,7 @@ StepStatus GeneralizedAlpha::linearize(const TangentWeights& weights, const Tang
     report.worst = factors.failed_unknown;
     return StepStatus::singular;
   }
+  system_.expand(tangent_, condensed_, increment_);
   factors_.valid = !report.modified_newton;
   factors_.weights = weights;
   factors_.floor = floor;

@@ -21,6 +21,11 @@ class LineSystem : public System {
   void tangent(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r, Tangent& t) const override {
     assembler_.tangent(state, weights, floor, r, t);
   }
+  FactorReport linearize(const State& state, const TangentWeights& weights, const TangentFloor& floor, LinearSolver& solver, std::span<double> r,
+                         Tangent& t, std::span<double> x) const override {
+    TangentPanels panels = assembler_.tangent_panels(state, weights, floor, r, t, x);
+    return solver.factorize_and_solve(panels, x);
+  }
   void reduce(Tangent& t, std::span<const double> r, std::span<double> rhs) const override { assembler_.reduce(t, r, rhs); }
   void expand(const Tangent& t, std::span<const double> x, std::span<double> d) const override { assembler_.expand(t, x, d); }
   void project(std::span<double> r) const override { assembler_.project(r); }

@@ -11,6 +11,7 @@
 
 #include "assembly/assembler.hpp"
 #include "assembly/state.hpp"
+#include "solver/linear/linear_solver.hpp"
 
 namespace hawser {
 
@@ -37,6 +38,12 @@ class System {
   virtual void residual(const State& state, std::span<double> r) const = 0;
   virtual void tangent(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r, Tangent& t) const = 0;
   virtual void reduce(Tangent& t, std::span<const double> r, std::span<double> rhs) const = 0;
+
+  /// Residual, tangent, its factors and x, the solution of T x = -R: tangent, reduce, factorize and solve. Where the solver refuses the matrix
+  /// (not_applicable) it is in t, and x is -R.
+  virtual FactorReport linearize(const State& state, const TangentWeights& weights, const TangentFloor& floor, LinearSolver& solver,
+                                 std::span<double> r, Tangent& t, std::span<double> x) const;
+
   virtual void expand(const Tangent& t, std::span<const double> x, std::span<double> d) const = 0;
 
   /// Zeroes the part of a residual in the directions that may not move.

@@ -224,7 +224,7 @@ TEST_P(SeabedUnder, TangentIsTheDerivativeOfTheResidualWhereTheRootsMove) {
     BlockTridiagonal matrix(model.chains);
     matrix.set_zero();
     std::vector<double> r(model.unknowns, 0.0), unit(model.dofs, 0.0), column(model.dofs);
-    add_seabed(model, state, r, w, false, matrix);
+    add_seabed(model, state, r, w, false, AddedBlocks(matrix));
     const auto alone = residual(state);
     for (std::size_t i = 0; i < r.size(); ++i) EXPECT_NEAR(r[i], alone[i], 1e-12 * 2.0e3) << "the force is the same with and without a tangent";
     double largest = 0.0;

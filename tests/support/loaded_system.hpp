@@ -37,6 +37,11 @@ class LoadedSystem : public LineSystem {
     add_block(t.chain.D(chain, last), weights.damping * end_dashpot * Eigen::Vector2d(1.0, 0.0).asDiagonal().toDenseMatrix(), last, last);
   }
 
+  FactorReport linearize(const State& state, const TangentWeights& weights, const TangentFloor& floor, LinearSolver& solver, std::span<double> r,
+                         Tangent& t, std::span<double> x) const override {
+    return System::linearize(state, weights, floor, solver, r, t, x);
+  }
+
  private:
   const Line& line() const { return model().lines.front(); }
   double length(int e) const { return model().element.length[e]; }

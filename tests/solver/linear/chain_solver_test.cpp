@@ -161,7 +161,7 @@ KernelAnswer answer_of(const ChainKernel& kernel, const BlockTridiagonal& a, con
   KernelAnswer answer{std::vector<double>(a.values().size()), b, {}};
   double *factors = answer.factors.data(), *x = answer.x.data();
   for (const Front front : fronts) kernel.factorize(c.block, c.nodes, a.values().data(), factors, front, answer.watch);
-  kernel.factorize_middle(c.block, c.nodes, a.values().data(), factors, answer.watch);
+  kernel.factorize_middle(c.block, c.nodes, a.D(c, c.nodes / 2), factors, answer.watch);
   for (const Front front : fronts) kernel.forward(c.block, c.nodes, factors, x, front);
   kernel.solve_middle(c.block, c.nodes, factors, x);
   for (const Front front : fronts) kernel.backward(c.block, c.nodes, factors, x, front);
