@@ -24,6 +24,14 @@ struct CurrentTable {
   const double *z = nullptr, *ux = nullptr, *uy = nullptr;
 };
 
+/// The rows that decide between two depths. A profile has many rows, a panel of elements lies between two or three.
+HAWSER_INLINE CurrentTable rows_between(const CurrentTable& table, double low, double high) {
+  int first = 0, last = table.rows - 1;
+  while (first + 1 < last && table.z[first + 1] <= low) ++first;
+  while (last - 1 > first && table.z[last - 1] >= high) --last;
+  return {last - first + 1, table.z + first, table.ux + first, table.uy + first};
+}
+
 template <class S>
 HAWSER_INLINE void current_at(const CurrentTable& table, const S& z, V3<S>& u, V3<S>& gradient) {
   u = zero_vector<S>();

@@ -62,6 +62,29 @@ HAWSER_INLINE Properties<Pack<W>> load_properties(const SweepLine& line, int e) 
   return {at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), at(9), at(10)};
 }
 
+/// The rows of the current that a panel reaches: its elements stay within the control points of their curves, r -+ (l/3) r'.
+template <int B, int W>
+HAWSER_INLINE CurrentTable current_around(const SweepLine& line, const PanelState<B>& state, int first, int count) {
+  using S = Pack<W>;
+  if (line.current.rows < 3) return line.current;
+  S longest(0.0), low(1e300), high(-1e300);
+  for (int i = 0; i < count; i += W) longest = maximum(longest, S::load(line.property[0] + first + i));
+  double third = 0.0;
+  for (int lane = 0; lane < W; ++lane) third = longest.v[lane] / 3.0 > third ? longest.v[lane] / 3.0 : third;
+  for (int i = 0; i <= count; i += W) {
+    const S z = S::load(&state.x[0][2][i]);
+    const S reach = B == 6 ? S(third) * magnitude(S::load(&state.x[0][B - 1][i])) : S(0.0);
+    low = minimum(low, z - reach);
+    high = maximum(high, z + reach);
+  }
+  double lowest = low.v[0], highest = high.v[0];
+  for (int lane = 1; lane < W; ++lane) {
+    lowest = low.v[lane] < lowest ? low.v[lane] : lowest;
+    highest = high.v[lane] > highest ? high.v[lane] : highest;
+  }
+  return rows_between(line.current, lowest, highest);
+}
+
 /// Axial terms at the nodes of a panel: force on r' and its block, one row per component.
 struct NodalAxial {
   alignas(64) double f[3][panel_nodes], K[9][panel_nodes];
@@ -177,6 +200,7 @@ void sweep_panel(const SweepLine& line, int panel) {
   const int count = line.elements - first < panel_elements ? line.elements - first : panel_elements;
   PanelState<B> state;
   state.gather(line, first, count + 1);
+  const CurrentTable current = current_around<B, W>(line, state, first, count);
   NodalAxial axial;
   if constexpr (B == 6) axial.compute<want, W>(line, state, first, count + 1);
   Running<B, W> before;
@@ -189,7 +213,7 @@ void sweep_panel(const SweepLine& line, int panel) {
     const Properties<S> properties = load_properties<W>(line, first + e);
     const ElementState<S> x{state.template nodal<W>(0, e), state.template nodal<W>(1, e), state.template nodal<W>(2, e)};
     Integrand<Family, S> in;
-    integrate<Family, want>(x, properties, line.weights, line.current, in);
+    integrate<Family, want>(x, properties, line.weights, current, in);
     V3<S> f[2 * Shape::node_vectors];
     nodal_force(in, f);
     write_residual<Shape>(f, axial, e, lanes, before, line.r + static_cast<long>(B) * (first + e));

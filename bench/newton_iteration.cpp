@@ -3,7 +3,7 @@
 //   hawser_bench --benchmark_filter=newton
 //
 // full:   residual, tangent, factors and increment: panel by panel in the chain solver, one after the other in the others
-// apart:  the same one after the other in the chain solver: what stages.cpp takes apart
+// apart:  the same one after the other in the chain solver, as the stages are measured
 // reused: residual, reduce, solve, expand with the factors of an earlier iteration
 // CHOLMOD factorizes the symmetric part (a modified Newton); forming it is counted.
 #include <algorithm>

@@ -54,12 +54,10 @@ INSTANTIATE_TEST_SUITE_P(Families, AssemblerOf,
                                            Setup{"beam_and_cable", 500.0, 0.0, ModelChoice::automatic}),
                          [](const auto& setup) { return setup.param.name; });
 
-TEST_P(AssemblerOf, ResidualIsTheSumOfItsElements) {
-  const Model model = build_model(scene());
-  const State state = random_state(model, 1);
+/// Away from joints and bodies the node's residual is that of its two elements.
+void expect_sum_of_elements(const Model& model, const State& state) {
   std::vector<double> swept(model.unknowns);
   Assembler(model).residual(state, swept);
-  // Away from joints and bodies the node's residual is that of its two elements.
   const Line& line = model.lines[0];
   double largest = 0.0;
   for (double r : swept) largest = std::max(largest, std::abs(r));
@@ -71,6 +69,24 @@ TEST_P(AssemblerOf, ResidualIsTheSumOfItsElements) {
     const int b = model.chain(0).block;
     for (int c = 0; c < b; ++c) EXPECT_NEAR(swept[model.dof(0, i) + c], left[6 + c] + right[c], 1.0e-13 * largest) << "node " << i;
   }
+}
+
+TEST_P(AssemblerOf, ResidualIsTheSumOfItsElements) {
+  const Model model = build_model(scene());
+  expect_sum_of_elements(model, random_state(model, 1));
+}
+
+// The sweep looks at those rows of a profile that a panel can reach, an element by itself at all of them.
+TEST_P(AssemblerOf, ResidualIsTheSumOfItsElementsInAProfileOfManyRows) {
+  Scene many = scene();
+  many.environment.current.clear();
+  for (int k = 0; k < 40; ++k) many.environment.current.push_back({10.0 - 3.0 * k, 0.5 + 0.4 * std::sin(1.7 * k), 0.3 * k});
+  const Model model = build_model(many);
+  State state = random_state(model, 1);
+  expect_sum_of_elements(model, state);
+  for (std::size_t i = 2; i < model.dofs; i += model.chain(0).block)
+    state.q[i] = 30.0 - 1.5 * (state.q[i] + 80.0);  // from above the first row to below the last
+  expect_sum_of_elements(model, state);
 }
 
 // The linearised Newton step is exact: R(x + h d) - R(x - h d) over 2h equals the assembled derivative along d = -T^-1 R, so
