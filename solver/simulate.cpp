@@ -146,13 +146,16 @@ Interval output_interval(const SimulateOptions& options, double from, long k) {
 
 }  // namespace
 
+// What Newton may leave of the wanted relative error of tension.
+constexpr double newton_share = 1.0e-3, loosest_tolerance = 1.0e-6;
+
 SimulateOptions simulate_options(const Scene& scene) {
   SimulateOptions options;
   options.duration = scene.dynamics->duration;
   options.step = scene.dynamics->step;
   options.spectral_radius = scene.dynamics->spectral_radius;
   options.output_interval = scene.dynamics->output_interval;
-  options.tolerance = scene.solve.newton_tolerance.value_or(0.0);
+  options.tolerance = scene.solve.newton_tolerance.value_or(std::min(newton_share * scene.solve.accuracy, loosest_tolerance));
   options.linear_solver = linear_solver_kind(scene.solve.linear_solver);
   return options;
 }

@@ -25,7 +25,7 @@ constexpr double largest_turn_of_iteration = 0.5;  // theory 6.3
 // of them; one that turns further than this in one step is not believed.
 constexpr double largest_turn_of_step = 0.5;
 
-// A tangent and its factors cost about as much as three iterations with old factors.
+// A tangent and its factors cost about as much as three iterations with old factors, and serve the first iteration of a step.
 constexpr int iterations_worth_factors = 3;
 constexpr int longest_pause = 32;  // steps
 
@@ -121,6 +121,8 @@ StepStatus GeneralizedAlpha::iterate(const State& state, const TangentWeights& w
   };
   const double wanted_length = tolerance_ * system_.reference_length();
   bool keep = old_factors_serve(weights, floor), old = keep;
+  const bool fresh = !old;
+  const int worth = std::min(iterations_worth_factors, factors_.fresh_iterations + 1);
   double previous = INFINITY;
   if (old) {
     evaluate(report);
@@ -147,15 +149,20 @@ StepStatus GeneralizedAlpha::iterate(const State& state, const TangentWeights& w
       return StepStatus::not_finite;
     }
     const double wanted_force = force <= tolerance_ * reference ? tolerance_ * reference : std::max(tolerance_ * reference, floor_force());
-    const bool small = force <= wanted_force && increment <= wanted_length;
+    // The next increment is judged, not the one already made: it shrinks with the residual.
+    const double next_increment = whole ? increment * std::min(1.0, force / previous) : increment;
+    const bool small = force <= wanted_force && next_increment <= wanted_length;
     const bool at_floor = force > 0.5 * previous && force <= floor_margin * floor_force();
     if (whole && (small || at_floor)) {
       if (old) {
         factors_.failures = 0;
       }
+      if (fresh) {
+        factors_.fresh_iterations = report.iterations;
+      }
       return StepStatus::ok;
     }
-    const int more = old ? iterations_worth_factors - report.iterations : 1;
+    const int more = old ? worth - report.iterations : 1;
     keep = whole && force < previous && more > 0 && force * std::pow(force / previous, more) <= wanted_force;
     if (old && !keep) {
       give_up_old_factors();

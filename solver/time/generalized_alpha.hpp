@@ -76,6 +76,8 @@ class GeneralizedAlpha {
     double force, reference;  // N
   };
 
+  static constexpr int iterations_expected = 2;
+
   /// What the solver's factors were made for, and how they have served in later steps.
   struct Factors {
     bool valid = false;
@@ -83,6 +85,7 @@ class GeneralizedAlpha {
     TangentFloor floor;
     int pause = 0;     // steps for which old factors are not tried
     int failures = 0;  // attempts with old factors in a row that had to be given up
+    int fresh_iterations = iterations_expected;  // of the last step that began with new factors
   };
 
   void predict(const State& state, double t, double h);
