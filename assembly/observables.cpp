@@ -157,8 +157,18 @@ void note(const Line& l, int i, double length, const Observed<double>& seen, Lin
 void correct(const Model& model, const State& state, int line, int i, Observed<double>& seen) {
   const int element = model.lines[line].first_element + i;
   const bool spread = std::any_of(model.spread_loads.begin(), model.spread_loads.end(), [&](const SpreadLoad& s) { return s.element == element; });
-  if (!spread && !model.seabed && !joint_of(model, element)) return;
-  seen = observe_element(model, state, line, element);
+  if (spread || joint_of(model, element)) {
+    seen = observe_element(model, state, line, element);
+    return;
+  }
+  if (!model.seabed) return;
+  const ElementState<double> x = element_state(model, state, line, element);
+  Vector12 f = Vector12::Zero();
+  if (!add_contact(model, line, element, x, TangentWeights{}, false, f, nullptr)) return;
+  const bool bar = model.lines[line].family == Family::bar;
+  const V3<double> chord = x.q.r1 - x.q.r0;
+  seen.tension[0] -= f.segment<3>(0).dot(to_vec(bar ? chord : x.q.s0).normalized());
+  seen.tension[1] += f.segment<3>(6).dot(to_vec(bar ? chord : x.q.s1).normalized());
 }
 
 void observe_ends(const Model& model, const State& state, int line, LineResult& out) {

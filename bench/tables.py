@@ -187,6 +187,14 @@ def scenes(r):
     table('Scenes, seconds:', ['scene', 'elements', 'processor time', 'wall time', 'iterations a step', 'factorizations a step'], rows)
 
 
+def offsets(r):
+    rows = [[name.split('/', 1)[1].replace('/', ', offsets up to ') + ' m', number(run['s_per_offset'] * 1e3), number(run['s_per_offset'] * 1e5 / 60),
+             number(run['iterations'], 3), f'{run["failed"]:.0f}'] for name, run in r.runs.items() if name.startswith('offsets/')]
+    if rows:
+        table('Maps of end offsets, 200 elements in a current on a bed, one thread:',
+              ['line', 'milliseconds an offset', 'minutes for 100 000', 'factorizations an offset', 'failed'], rows)
+
+
 def write(folder, name, head, rows):
     with open(os.path.join(folder, name), 'w') as file:
         file.write(head + '\n')
@@ -230,6 +238,7 @@ def main():
     roofline(r, context)
     steps(r)
     scenes(r)
+    offsets(r)
     if chosen.data:
         write_data(r, context, chosen.data)
 

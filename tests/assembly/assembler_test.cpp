@@ -8,6 +8,7 @@
 
 #include "assembly/element.hpp"
 #include "assembly/observables.hpp"
+#include "assembly/seabed.hpp"
 #include "tests/support/scene_samples.hpp"
 
 namespace hawser {
@@ -178,9 +179,7 @@ TEST_P(AssemblerOf, EveryInstructionSetGivesTheSameNumbers) {
   }
 }
 
-TEST_P(AssemblerOf, ObservedInPacksIsWhatEachElementShows) {
-  const Model model = build_model(scene());
-  const State state = random_state(model, 6);
+void expect_what_each_element_shows(const Model& model, const State& state) {
   const LineResult seen = observe_line(model, state, 0);
   double largest = 0.0, least = 1.0e300;
   for (double x : seen.tension_right) largest = std::max(largest, std::abs(x));
@@ -194,6 +193,20 @@ TEST_P(AssemblerOf, ObservedInPacksIsWhatEachElementShows) {
   }
   EXPECT_NEAR(seen.least_strain_tension, least, 1.0e-13 * model.element.EA[0]);
   for (std::size_t i = 0; i < curvature.size(); ++i) EXPECT_NEAR(seen.curvature[i], curvature[i], 1.0e-13 * seen.curvature_max) << i;
+}
+
+TEST_P(AssemblerOf, ObservedInPacksIsWhatEachElementShows) {
+  const Model model = build_model(scene());
+  expect_what_each_element_shows(model, random_state(model, 6));
+}
+
+TEST_P(AssemblerOf, ObservedInPacksOnASeabedIsWhatEachElementShows) {
+  Scene on_bed = scene();
+  on_bed.environment.depth = 50.0;
+  const Model model = build_model(on_bed);
+  const State state = random_state(model, 6);
+  ASSERT_GT(observe_seabed(model, state, 0).length, 10.0);
+  expect_what_each_element_shows(model, state);
 }
 
 TEST(Assembler, FlooredTangentIsExactWhereTheTensionIsAboveTheFloor) {
