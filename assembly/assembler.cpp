@@ -116,7 +116,7 @@ struct Assembler::Impl {
     s.weights = {w.stiffness, w.damping, w.mass, floor.gauss_newton};
     s.current = current_table(model);
     s.r = r + chain.first_dof;
-    s.blocks = values ? values + chain.first_value : nullptr;
+    s.blocks = values;
     s.carry = carry.data() + static_cast<std::size_t>(first_panel[index]) * carry_size;
     return s;
   }
