@@ -115,6 +115,31 @@ TEST(ChainPanels, GiveTheBitsOfAssemblyBeforeEliminationOnAPlainLine) {
     }
 }
 
+TEST(ChainPanels, GiveTheBitsOfEachLineByItselfInASceneOfSeveral) {
+  const ModelChoice families[] = {ModelChoice::beam, ModelChoice::bar, ModelChoice::cable};
+  const int elements[] = {150, 70, 129};
+  Scene several = plain_line(elements[0], families[0]);
+  for (int k : {1, 2}) {
+    several.lines.push_back(plain_line(elements[k], families[k]).lines[0]);
+    several.lines[k].name += std::to_string(k);
+  }
+  const Model model = build_model(several);
+  const State state = shaken_state(model);
+  const Answer all = together(model, state, {}), first = apart(model, state, {});
+  EXPECT_EQ(all.r, first.r);
+  EXPECT_EQ(all.x, first.x);
+  for (int k = 0; k < 3; ++k) {
+    const Model single = build_model(plain_line(elements[k], families[k]));
+    const auto from = static_cast<std::ptrdiff_t>(model.chain(k).first_dof), to = from + static_cast<std::ptrdiff_t>(single.dofs);
+    const auto part = [&](const std::vector<double>& x) { return std::vector<double>(x.begin() + from, x.begin() + to); };
+    State own = single.make_state();
+    own.q = part(state.q), own.v = part(state.v), own.a = part(state.a);
+    const Answer alone = together(single, own, {});
+    EXPECT_EQ(part(all.r), alone.r) << k;
+    EXPECT_EQ(part(all.x), alone.x) << k;
+  }
+}
+
 TEST(ChainPanels, GiveTheSameSolutionWithJointsBodiesAndContact) {
   for (const int elements : {10, 64, 129, 400})
     for (const double EI : {0.0, 500.0})
