@@ -50,8 +50,9 @@ std::vector<double> product_weights(const Model& model) {
 std::vector<char> held_unknowns(const Model& model) {
   std::vector<char> held(model.dofs, 0);
   for (const Support& support : model.supports) {
-    const std::size_t first = model.dof(support.line, support.node);
-    std::fill_n(held.begin() + first, support.clamped ? 6 : 3, 1);
+    const auto first = held.begin() + static_cast<std::ptrdiff_t>(model.dof(support.line, support.node));
+    if (support.position) std::fill_n(first, 3, 1);
+    if (support.clamped && model.chain(support.line).block == 6) std::fill_n(first + 3, 3, 1);
   }
   return held;
 }
