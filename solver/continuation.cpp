@@ -10,11 +10,11 @@ constexpr int most_corrections = 8;
 constexpr int wanted_corrections = 4;      // the step is chosen for these
 constexpr double least_step = 1e-5;        // of the first one
 constexpr double most_step = 64.0;         // of the first one
-constexpr double least_cosine = 0.9;       // between the tangents of two points
+constexpr double least_cosine = 0.85;      // between the tangents of two points
 constexpr double increment_small = 1e-7;   // of a last correction, in the norm of motions
 constexpr double fold_rate = 1e-7;         // p' at a fold, of the p' along which the branch was entered
 constexpr int most_fold_corrections = 12;  // points tried for one fold
-constexpr double correction_limit = 4.0;   // of the step: a corrector that goes further is on its way to another branch
+constexpr double correction_limit = 0.5;   // of the step: a corrector that goes further is on its way to another branch
 constexpr double stop_tolerance = 1e-9;    // relative to the spacing of stops: p is there already
 constexpr double rounding_margin = 20.0;   // as in solver/newton.cpp
 
@@ -158,6 +158,7 @@ bool Follower::advance(const BranchPoint& from, double h, BranchPoint& to) {
   spring_ = system_.strongest(from.q_rate);
   // The prediction moves what p prescribes as the tangent says; move_to puts it where p says.
   if (!system_.move_to(to.p, to.q) || !correct(tangent_of(from), to, correction_limit * h) || !turn_tangent(to, tangent_of(from))) return false;
+  to.negative_pivots = system_.negative_pivots(to.q);
   return system_.product(from.q_rate, to.q_rate) + mass_ * from.p_rate * to.p_rate >= least_cosine;
 }
 
@@ -245,6 +246,10 @@ bool Follower::take_stops(const BranchPoint& a, const BranchPoint& b) {
 /// What lies between two steps, and the second one; false where a point between them could not be solved.
 bool Follower::record(const BranchPoint& a, const BranchPoint& b) {
   const bool turns = std::signbit(a.p_rate) != std::signbit(b.p_rate);
+  if (turns && options_.folds_change_stability && a.negative_pivots == b.negative_pivots) {
+    report_.end = ContinuationEnd::not_unique;
+    return true;
+  }
   BranchPoint fold;
   if (turns && !find_fold(a, b, fold)) return false;
   if (!turns) {
@@ -287,6 +292,7 @@ ContinuationReport Follower::run(double p, Vector q) {
       report_.end = ContinuationEnd::reached;
       return report_;
     }
+    if (report_.end == ContinuationEnd::not_unique) return report_;
     if (next.p < options_.stops.front() || next.p > options_.stops.back()) {
       report_.end = ContinuationEnd::left_range;
       return report_;

@@ -75,12 +75,13 @@ struct BranchPoint {
 };
 
 struct ContinuationOptions {
-  std::vector<double> stops;  // values of p at which points are wanted, ascending; the branch is followed between the first and the last
-  double target = 0.0;        // it ends where p passes this, on the way on which it set out
-  double first_step = 1.0;    // in p
-  double motion_by_p = 0.0;   // sqrt(m), from what is known of the branch already; 0: |dq/dp| where it is entered (too much next to a fold)
-  int most_steps = 400;       // in all, and
-  int steps_to_fold = 40;     // as long as no fold was met
+  std::vector<double> stops;           // values of p at which points are wanted, ascending; the branch is followed between the first and the last
+  double target = 0.0;                 // it ends where p passes this, on the way on which it set out
+  double first_step = 1.0;             // in p
+  double motion_by_p = 0.0;            // sqrt(m), from what is known of the branch already; 0: |dq/dp| where it is entered (too much next to a fold)
+  int most_steps = 400;                // in all, and
+  int steps_to_fold = 40;              // as long as no fold was met
+  bool folds_change_stability = true;  // there is a potential: at a fold the number of negative pivots changes
 };
 
 enum class ContinuationEnd {
@@ -88,6 +89,7 @@ enum class ContinuationEnd {
   left_range,  // p passed the first or the last stop
   stuck,       // no step is short enough: the branch ends, or is not smooth
   too_long,
+  not_unique,  // it turned back where no direction gained or lost stability: a continuum of solutions, no fold
 };
 
 struct ContinuationReport {

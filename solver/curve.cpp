@@ -14,8 +14,10 @@ constexpr double difference_step = 1e-3;  // of the spacing of values: for dR/dp
 constexpr double first_share = 0.25;      // of the way to p: the first step along a branch
 constexpr double small_jump = 1e-4;       // of the length: nearer to the guess an equilibrium is on its branch
 constexpr double large_miss = 0.5;        // of the way from the last equilibrium to the guess
+constexpr double unlike = 3.0;            // ratio of two tangents, and
+constexpr double like_cosine = 0.8;       // angle between them, and
+constexpr double like_chord = 0.3;        // what the chord misses their mean by: beyond these two equilibria are not joined without a look
 constexpr double large_move = 2.5;        // of what the last step lets expect
-constexpr int easy_iterations = 7;        // factorizations of a warm start that stays on its branch
 
 /// Mean distance of the nodes of two states, of the longest line.
 double mean_distance(const Model& model, std::span<const double> a, std::span<const double> b) {
@@ -30,6 +32,10 @@ double mean_distance(const Model& model, std::span<const double> a, std::span<co
   return std::sqrt(sum / model.total_nodes()) / longest;
 }
 
+double spacing(const std::vector<double>& values) {
+  return (values.back() - values.front()) / std::max<double>(1.0, static_cast<double>(values.size()) - 1.0);
+}
+
 const char* describe(ContinuationEnd end) {
   switch (end) {
     case ContinuationEnd::reached:
@@ -40,9 +46,14 @@ const char* describe(ContinuationEnd end) {
       return "could not be followed further";
     case ContinuationEnd::too_long:
       return "was given up after too many steps";
+    case ContinuationEnd::not_unique:
+      return "turned back without a change of stability: its states are not unique";
   }
   return "";
 }
+
+/// Water moves past the lines: the loads have no potential, and the elastic tangent does not see every fold.
+bool flows(const Model& model) { return model.wet && (model.current.fastest() > 0.0 || model.tow != Vec3::Zero()); }
 
 /// The folds and the equilibria at the values, but the answer itself.
 std::vector<PassedPoint> passed_points(ModelBranch& branch, const ContinuationReport& way, bool arrived) {
@@ -80,12 +91,12 @@ State StaticCurve::predicted(const Model& model, double p) const {
   return state;
 }
 
-/// The warm start may have jumped to another branch: it took long, or ended far from its guess, or moved much more than the step before.
-bool StaticCurve::off_the_branch(const Model& model, const State& guess, const State& found, double p, int iterations) const {
+/// The warm start may have jumped to another branch: it ended far from its guess, or moved much more than the step before.
+bool StaticCurve::off_the_branch(const Model& model, const State& guess, const State& found, double p) const {
   const Known& last = known_.back();
   const double missed = mean_distance(model, guess.q, found.q);
   if (missed <= small_jump) return false;
-  if (iterations > easy_iterations || missed > large_miss * mean_distance(model, guess.q, last.q)) return true;
+  if (missed > large_miss * mean_distance(model, guess.q, last.q)) return true;
   if (known_.size() < 2) return false;
   const Known& before = known_[known_.size() - 2];
   const double expected = mean_distance(model, last.q, before.q) * std::abs((p - last.p) / (last.p - before.p));
@@ -100,21 +111,45 @@ bool StaticCurve::warm_start(const Assembler& assembler, double p, const StaticO
   const State guess = predicted(assembler.model(), p);
   found = guess;
   report.statics = solve_static(assembler, warm, found);
-  return report.statics.converged && !(way_.model_at && off_the_branch(assembler.model(), guess, found, p, report.statics.iterations));
+  return report.statics.converged && !(way_.model_at && off_the_branch(assembler.model(), guess, found, p));
+}
+
+/// Two equilibria whose tangents dq/dp fit the chord between them lie on one smooth piece of a branch; next to a fold they do not.
+bool StaticCurve::joined(ModelBranch& branch, double p, const State& found, StaticReport& statics) const {
+  const Known& last = known_.back();
+  const auto tangent = [&](double at, std::vector<double> q, std::vector<double>& rate) {
+    BranchResponse response;
+    ++statics.iterations;
+    if (!branch.move_to(at, q) || !branch.respond(q, no_spring, response)) return false;
+    rate = std::move(response.parameter);
+    for (std::size_t i = 0; i < rate.size(); ++i) rate[i] += response.shift[i];
+    return true;
+  };
+  std::vector<double> a, b, missed = found.q;
+  if (!tangent(last.p, last.q, a) || !tangent(p, found.q, b)) return false;
+  for (std::size_t i = 0; i < missed.size(); ++i) missed[i] -= last.q[i];
+  const double chord = std::sqrt(branch.product(missed, missed));
+  for (std::size_t i = 0; i < missed.size(); ++i) missed[i] -= 0.5 * (p - last.p) * (a[i] + b[i]);
+  const double aa = branch.product(a, a), bb = branch.product(b, b), ab = branch.product(a, b);
+  return ab >= like_cosine * std::sqrt(aa * bb) && std::max(aa, bb) <= unlike * unlike * std::min(aa, bb) &&
+         std::sqrt(branch.product(missed, missed)) <= like_chord * chord;
 }
 
 /// Follows the branch from the last equilibrium to p; true if it leads to a stable equilibrium there, which is then the answer.
-bool StaticCurve::follow(const Model& model, double p, const StaticOptions& options, State& state, CurveReport& report) {
-  const double spacing = (way_.values.back() - way_.values.front()) / std::max<double>(1.0, static_cast<double>(way_.values.size()) - 1.0);
-  ModelBranch branch(way_.model_at, model, difference_step * spacing, options);
+bool StaticCurve::follow(ModelBranch& branch, const Model& model, double p, const StaticOptions& options, State& state, CurveReport& report) {
   ContinuationOptions follow;
   follow.stops = way_.values;
   follow.target = p;
+  follow.folds_change_stability = !flows(model);
   follow.first_step = first_share * std::abs(p - known_.back().p);
-  if (known_.size() > 1) {
+  // What the last step moved says how a unit of p weighs; at first what the next one would move.
+  const bool second = known_.size() > 1;
+  if (second || report.statics.converged) {
+    const std::vector<double>& other = second ? known_[known_.size() - 2].q : state.q;
+    const double step = second ? known_.back().p - known_[known_.size() - 2].p : p - known_.back().p;
     std::vector<double> motion = known_.back().q;
-    for (std::size_t i = 0; i < motion.size(); ++i) motion[i] -= known_[known_.size() - 2].q[i];
-    follow.motion_by_p = std::sqrt(branch.product(motion, motion)) / std::abs(known_.back().p - known_[known_.size() - 2].p);
+    for (std::size_t i = 0; i < motion.size(); ++i) motion[i] -= other[i];
+    follow.motion_by_p = std::sqrt(branch.product(motion, motion)) / std::abs(step);
   }
   const ContinuationReport way = follow_branch(branch, known_.back().p, known_.back().q, follow);
   StaticReport& statics = report.statics;
@@ -139,17 +174,18 @@ bool StaticCurve::follow(const Model& model, double p, const StaticOptions& opti
   statics.roundoff_floor = residual.rounding;
   statics.residual = way.points.back().residual;
   statics.failure = {};
+  report.warm = true;
   keep_last(way);
   return true;
 }
 
-/// The points behind the last fold are the equilibria that the next prediction uses; the last one is added as the answer.
+/// What the next prediction uses: past a fold only the equilibria behind it, at the values alone; nearer points would predict from too little.
 void StaticCurve::keep_last(const ContinuationReport& way) {
   for (const BranchPoint& point : way.points) {
     if (point.kind == BranchPoint::Kind::fold) known_.clear();
-    const bool useful = point.kind != BranchPoint::Kind::fold && &point != &way.points.back();
-    if (useful && (known_.empty() || known_.back().p != point.p)) known_.push_back({point.p, point.q});
-    if (known_.size() >= most_known) known_.pop_front();
+    const bool other = known_.empty() || known_.back().p != point.p;
+    if (other && point.kind == BranchPoint::Kind::stop && &point != &way.points.back()) known_.push_back({point.p, point.q});
+    if (known_.size() > most_known) known_.pop_front();
   }
 }
 
@@ -163,7 +199,7 @@ CurveReport StaticCurve::next(const Assembler& assembler, double p, const Static
   bool connected = false;
   if (!known_.empty()) {
     State found;
-    connected = warm_start(assembler, p, options, found, report) || (way_.model_at && follow(model, p, options, found, report));
+    connected = warm_start(assembler, p, options, found, report);
     report.warm = report.statics.converged;
     if (report.warm) state = std::move(found);
   }
@@ -172,6 +208,11 @@ CurveReport StaticCurve::next(const Assembler& assembler, double p, const Static
     report.statics = solve_static(assembler, options, state);
     report.statics.iterations += tried.iterations;
     report.statics.stages.insert(report.statics.stages.begin(), tried.stages.begin(), tried.stages.end());
+  }
+  if (!connected && way_.model_at && !known_.empty()) {
+    ModelBranch branch(way_.model_at, model, difference_step * spacing(way_.values), options);
+    connected = report.statics.converged && joined(branch, p, state, report.statics);
+    if (!connected) connected = follow(branch, model, p, options, state, report);
   }
   if (!report.statics.converged) return report;
   if (!connected) {

@@ -8,9 +8,10 @@
 // A first guess that does not lead to a stable equilibrium within a few factorizations is given up for a cold start: a curve
 // never ends where a single static would not.
 //
-// With the means to make a model at any p the curve stays on its branch. Where the warm start failed, took long, ended far from its first
-// guess or moved much more than the step before, the branch is followed in its arclength (solver/continuation.hpp) from the last equilibrium to p,
-// past its folds; what it meets on the way is reported. Where it does not lead to a stable equilibrium at p, the answer belongs to another branch.
+// With the means to make a model at any p the curve stays on its branch. Where the warm start failed, ended far from its first guess or moved much
+// more than the step before, the new equilibrium must show that it is joined to the last one: the tangents dq/dp at both are alike and fit the chord.
+// If not, the branch is followed in its arclength (solver/continuation.hpp) from the last equilibrium to p, past its folds; what it meets on the way
+// is reported. Where it does not lead to a stable equilibrium at p, the answer belongs to another branch.
 #pragma once
 
 #include <deque>
@@ -62,9 +63,10 @@ class StaticCurve {
 
   State predicted(const Model& model, double p) const;
   bool warm_start(const Assembler& assembler, double p, const StaticOptions& options, State& found, CurveReport& report) const;
-  bool follow(const Model& model, double p, const StaticOptions& options, State& state, CurveReport& report);
+  bool joined(ModelBranch& branch, double p, const State& found, StaticReport& statics) const;
+  bool follow(ModelBranch& branch, const Model& model, double p, const StaticOptions& options, State& state, CurveReport& report);
   void keep_last(const ContinuationReport& way);
-  bool off_the_branch(const Model& model, const State& guess, const State& found, double p, int iterations) const;
+  bool off_the_branch(const Model& model, const State& guess, const State& found, double p) const;
 
   CurveWay way_;
   std::vector<int> layout_;  // of the states in known_

@@ -183,6 +183,22 @@ TEST(StaticCurve, PassesFoldsOnOneBranchAndMarksTheUnstablePart) {
   EXPECT_GE(between, 1);
 }
 
+TEST(StaticCurve, FindsTheSameFoldsWhateverTheSpacingOfItsValues) {
+  const Arch arch{0.05};
+  const double Q = 1.5 * arch.fold(0);
+  std::vector<double> first;
+  for (const int n : {3, 4, 7, 13, 30}) {
+    const Snap snap = push_through(arch, Q, n);
+    std::vector<double> folds;
+    for (const PassedPoint& point : snap.passed)
+      if (point.fold) folds.push_back(Q * (point.p + 1.0) / n);
+    ASSERT_EQ(folds.size(), 2u) << n;
+    if (first.empty()) first = folds;
+    // Residuals end below 1e-10 of the reaction of 50 N, and p is as exact as they are; ten times that.
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(folds[i], first[i], 5e-8) << n;
+  }
+}
+
 TEST(StaticCurve, WithoutTheMeansToFollowABranchItJumps) {
   const Arch arch{0.05};
   StaticCurve curve;
