@@ -205,8 +205,7 @@ bool Follower::find_fold(BranchPoint a, BranchPoint b, BranchPoint& fold) {
 
 void Follower::keep(BranchPoint point, BranchPoint::Kind kind) {
   point.kind = kind;
-  system_.move_to(point.p, point.q);
-  point.negative_pivots = system_.negative_pivots(point.q);
+  if (kind != BranchPoint::Kind::step && system_.move_to(point.p, point.q)) point.negative_pivots = system_.negative_pivots(point.q);
   point.factorizations = report_.factorizations - counted_;
   counted_ = report_.factorizations;
   report_.points.push_back(std::move(point));

@@ -209,10 +209,11 @@ CurveReport StaticCurve::next(const Assembler& assembler, double p, const Static
     report.statics.iterations += tried.iterations;
     report.statics.stages.insert(report.statics.stages.begin(), tried.stages.begin(), tried.stages.end());
   }
-  if (!connected && way_.model_at && !known_.empty()) {
+  if (!connected && way_.model_at && !known_.empty() && !ended_) {
     ModelBranch branch(way_.model_at, model, difference_step * spacing(way_.values), options);
     connected = report.statics.converged && joined(branch, p, state, report.statics);
     if (!connected) connected = follow(branch, model, p, options, state, report);
+    ended_ = !connected;
   }
   if (!report.statics.converged) return report;
   if (!connected) {
@@ -220,6 +221,7 @@ CurveReport StaticCurve::next(const Assembler& assembler, double p, const Static
     ++branches_;
   }
   report.branch = branches_;
+  ended_ = false;
   known_.push_back({p, state.q});
   if (known_.size() > most_known) known_.pop_front();
   return report;

@@ -71,6 +71,7 @@ class StaticCurve {
   CurveWay way_;
   std::vector<int> layout_;  // of the states in known_
   std::deque<Known> known_;  // on one branch, oldest first
+  bool ended_ = false;       // followed from the last of them in vain: once is enough
   int branches_ = 0;         // met so far
 };
 

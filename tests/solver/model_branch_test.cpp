@@ -199,6 +199,57 @@ TEST(StaticCurve, FindsTheSameFoldsWhateverTheSpacingOfItsValues) {
   }
 }
 
+TEST(StaticCurve, ABranchThatLeavesTheRangeEndsAndAnotherOneGoesOn) {
+  // Between -1.9/2.2 and -2.5/2.2 of the snapping force only the first fold lies; the second one is out of the range.
+  const Arch arch{0.05};
+  const double Q = arch.fold(0);
+  CurveWay way{[&](double share) { return std::optional<Model>(arch.model(share * Q)); }, {0.86, 0.9, 0.95, 1.05, 1.1}};
+  StaticCurve curve(way);
+  std::vector<int> branches;
+  std::vector<PassedPoint> passed;
+  for (const double share : way.values) {
+    const Model model = arch.model(share * Q);
+    State state = model.make_state();
+    const CurveReport report = curve.next(Assembler(model), share, {}, state);
+    EXPECT_TRUE(report.statics.stable) << share;
+    branches.push_back(report.branch);
+    passed.insert(passed.end(), report.passed.begin(), report.passed.end());
+  }
+  EXPECT_EQ(branches, (std::vector<int>{1, 1, 1, 2, 2}));
+  ASSERT_EQ(passed.size(), 4u);  // the fold, and the unstable states at 0.95, 0.9 and 0.86
+  EXPECT_TRUE(passed[0].fold);
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_EQ(passed[i].p, way.values[3 - i]);
+    EXPECT_FALSE(passed[i].stable);
+  }
+}
+
+TEST(StaticCurve, ABranchThatEndsIsFollowedOnlyOnce) {
+  // Without weight the slack thread has no shape of its own: its branch ends there.
+  const auto thread = [](double weight) {
+    SceneBuilder b;
+    b.dry().type(line_type("thread", 1.0e6, weight)).fixed("a", {0, 0, 0}).fixed("b", {90, 0, 0}).line("a", "b").section("thread", 100.0, 20);
+    return build_model(b.scene);
+  };
+  int asked = 0;
+  const auto model_at = [&](double p) {
+    ++asked;
+    return p < 1.0 ? std::optional<Model>(thread(10.0 * (1.0 - p))) : std::nullopt;
+  };
+  StaticCurve curve({model_at, {0.0, 1.0, 2.0, 3.0}});
+  State state;
+  const Model hanging = thread(10.0), shapeless = thread(0.0);
+  EXPECT_TRUE(curve.next(Assembler(hanging), 0.0, {}, state).statics.converged);
+  const CurveReport failed = curve.next(Assembler(shapeless), 1.0, {}, state);
+  EXPECT_FALSE(failed.statics.converged);
+  EXPECT_EQ(failed.branch, 0);
+  EXPECT_TRUE(failed.passed.empty());
+  EXPECT_GT(asked, 0);
+  asked = 0;
+  EXPECT_FALSE(curve.next(Assembler(shapeless), 2.0, {}, state).statics.converged);
+  EXPECT_EQ(asked, 0);
+}
+
 TEST(StaticCurve, WithoutTheMeansToFollowABranchItJumps) {
   const Arch arch{0.05};
   StaticCurve curve;
