@@ -12,16 +12,20 @@ constexpr int warm_iterations = 15;    // factorizations; a guess that needs mor
 std::vector<int> layout_of(const Model& model) {
   std::vector<int> layout;
   for (const Line& line : model.lines) layout.insert(layout.end(), {static_cast<int>(line.family), line.nodes});
+  for (const Line& line : model.lines) layout.insert(layout.end(), {line.from_hub, line.to_hub});
   for (const Joint& joint : model.joints) layout.insert(layout.end(), {static_cast<int>(joint.jump), joint.element});
   return layout;
 }
 
-/// Moves the held ends of a line to where the model has them, and the line with them.
+/// Moves the held ends of a line to where the model has them, and the line with them; a point where lines meet stays.
 void follow_ends(const Model& model, int index, State& state) {
   const Line& line = model.lines[index];
   const Chain& chain = model.chain(index);
   const auto r = [&](int node) { return Eigen::Map<Vec3>(&state.q[chain.dof(node)]); };
-  Vec3 from = model.points[line.from].motion(0.0).r - r(0), to = model.points[line.to].motion(0.0).r - r(line.nodes - 1);
+  const auto way = [&](int point, int node) {
+    return model.points[point].free ? Vec3(Vec3::Zero()) : Vec3(model.points[point].motion(0.0).r - r(node));
+  };
+  Vec3 from = way(line.from, 0), to = way(line.to, line.nodes - 1);
   if (line.from_free) from = to;
   if (line.to_free) to = from;
   for (int i = 0; i < line.nodes; ++i) {
