@@ -14,14 +14,15 @@ namespace {
 
 constexpr int max_iterations = 60;                  // with one elasticity
 constexpr double first_EA = 10.0, EA_ratio = 10.0;  // of the loads; from one elasticity to the next
-constexpr double rough_balance = 1e-2;              // of the loads
-constexpr double wanted_balance = 1e-9;
-constexpr double least_step = 1e-12;    // of the length
-constexpr double least_tension = 1e-6;  // of the load: tension that keeps a slack line's compliance finite
-constexpr double difference = 1e-6;     // of the length, to measure the stiffness of a line on the bed
-constexpr double floor_share = 1e-12;   // of the largest stiffness, added to all
-constexpr double upturn = 0.1;          // slope of the energy along a step, of the one at its start, that ends it
-constexpr double least_share = 1e-6;    // of a step
+constexpr double rough_balance = 1e-2;              // of the largest load at a hub: with softened lines
+constexpr double wanted_balance = 1e-9;             // in still water
+constexpr double balance_in_flow = 1e-3;            // the drag of a first guess is not known better
+constexpr double least_step = 1e-12;                // of the length
+constexpr double least_tension = 1e-6;              // of the load: tension that keeps a slack line's compliance finite
+constexpr double difference = 1e-6;                 // of the length, to measure the stiffness of a line on the bed
+constexpr double floor_share = 1e-12;               // of the largest stiffness, added to all
+constexpr double upturn = 0.1;                      // slope of the energy along a step, of the one at its start, that ends it
+constexpr double least_share = 1e-6;                // of a step
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -67,28 +68,35 @@ class Balance {
  public:
   explicit Balance(const Model& model) : model_(model), EA_(model.element.EA) {
     for (const ModelPoint& point : model.points) position_.push_back(point.motion(0.0).r);
-    for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
-      scale_ += load_scale(model, line);
-      length_ = std::max(length_, model.lines[line].length);
+    std::vector<double> at_hub(model.hubs.size());
+    for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
+      const Line& line = model.lines[index];
+      const double load = load_scale(model, index);
+      all_loads_ += load;
+      length_ = std::max(length_, line.length);
+      for (const int hub : {line.from_hub, line.to_hub})
+        if (hub >= 0) at_hub[hub] += load;
     }
+    hub_load_ = *std::max_element(at_hub.begin(), at_hub.end());
   }
 
   /// Soft lines first, then stiffer and stiffer ones: a step that swings a hub on a stiff line would be short.
   std::vector<Vec3> run() {
     const double stiffest = *std::max_element(EA_.begin(), EA_.end());
-    for (double EA = first_EA * scale_; EA < stiffest && EA > 0.0; EA *= EA_ratio) {
+    for (double EA = first_EA * all_loads_; EA < stiffest && EA > 0.0; EA *= EA_ratio) {
       for (std::size_t e = 0; e < EA_.size(); ++e) model_.element.EA[e] = std::min(EA_[e], EA);
       balance(rough_balance);
     }
     model_.element.EA = EA_;
-    balance(wanted_balance);
+    const bool flow = model_.wet && model_.current.fastest() + model_.tow.norm() > 0.0;
+    balance(flow ? balance_in_flow : wanted_balance);
     return position_;
   }
 
  private:
   void balance(double tolerance) {
     Eigen::VectorXd force = evaluate(true);
-    for (int k = 0; k < max_iterations && force.cwiseAbs().maxCoeff() > tolerance * scale_; ++k) {
+    for (int k = 0; k < max_iterations && force.cwiseAbs().maxCoeff() > tolerance * hub_load_; ++k) {
       Eigen::VectorXd step = factors_.solve(force);
       if (factors_.info() != Eigen::Success || !step.allFinite()) return;
       step *= std::min(1.0, length_ / step.cwiseAbs().maxCoeff());
@@ -159,7 +167,7 @@ class Balance {
     Pull pull{end_forces(model_, line, shape)};
     if (!with_stiffness || line.from_free || line.to_free) return pull;  // a line with a free end follows its other end
     if (!rests_on_bed(model_, shape)) {
-      pull.stiffness = hanging_stiffness(model_, line, shape, least_tension * scale_);
+      pull.stiffness = hanging_stiffness(model_, line, shape, least_tension * all_loads_);
       return pull;
     }
     const double h = difference * line.length;
@@ -175,7 +183,8 @@ class Balance {
   Model model_;             // with the elasticity of the moment
   std::vector<double> EA_;  // N, as it is
   std::vector<Vec3> position_;
-  double scale_ = 0.0, length_ = 0.0;  // N, all loads; m, the longest line
+  double all_loads_ = 0.0, hub_load_ = 0.0;  // N; the largest of the lines at a hub
+  double length_ = 0.0;                      // m, the longest line
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
 };
 

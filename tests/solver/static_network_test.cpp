@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <numbers>
+#include <random>
 
 #include "solver/bordered_solver.hpp"
 #include "solver/end_stiffness.hpp"
@@ -252,6 +253,61 @@ TEST(Network, EndStiffnessIsTheDerivativeOfTheEndForcesWithTheHubsFree) {
     };
     EXPECT_LT((K.col(axis) - (held(h) - held(-h)) / (2.0 * h)).norm(), 1e-5 * K.norm()) << axis;
   }
+}
+
+/// Hubs hung between anchors around them and to one another; no two anchors of a hub are near each other in plan.
+Scene random_network(std::mt19937& draw) {
+  const auto in = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(draw); };
+  const double R = std::exp(in(std::log(20.0), std::log(2000.0)));
+  LineType type = line_type("rope", std::exp(in(std::log(1e5), std::log(1e10))), in(1.0, 40.0));
+  SceneBuilder b;
+  b.type(type);
+  const int hubs = 1 + static_cast<int>(in(0.0, 5.0));
+  std::vector<Vec3> at;
+  for (int i = 0; i < hubs; ++i) {
+    at.push_back(Vec3(in(-0.3, 0.3), in(-0.3, 0.3), in(-0.6, -0.3)) * R);
+    b.free("h" + std::to_string(i), at[i], weight(in(0.0, 1.0) < 0.5 ? 0.0 : in(0.0, 2.0) * R * *type.wet_weight));
+  }
+  const auto join = [&](const std::string& from, const std::string& to, double distance) {
+    b.line(from, to).section("rope", distance * in(0.98, 1.25), 10 + static_cast<int>(in(0.0, 20.0)));
+  };
+  for (int i = 0; i < hubs; ++i) {
+    const double turn = in(0.0, 360.0);
+    for (int k = 0; k < 2 + i % 2; ++k) {
+      const std::string name = "a" + std::to_string(i) + std::to_string(k);
+      const Vec3 anchor = around(R, turn + 120.0 * k + in(-20.0, 20.0), in(-0.2, 0.2) * R);
+      b.fixed(name, anchor);
+      join(name, "h" + std::to_string(i), (anchor - at[i]).norm());
+    }
+    if (i > 0) join("h" + std::to_string(i), "h" + std::to_string(i - 1), (at[i] - at[i - 1]).norm());
+  }
+  return b.scene;
+}
+
+TEST(Network, OfRandomLinesBalancesItsLoads) {
+  std::mt19937 draw(7);
+  int factorizations = 0;
+  const int scenes = 100;
+  for (int k = 0; k < scenes; ++k) {
+    const Scene scene = random_network(draw);
+    const StaticSolution s(scene);
+    factorizations += s.report.iterations;
+    Vec3 held = Vec3::Zero();
+    double load = 0.0;
+    // What Newton leaves at a node: its tolerance, or a few times what rounding of stiff lines does.
+    const double left = 1e-10 * s.report.reference_force + 4.0 * s.report.roundoff_floor;
+    for (const PointSpec& point : scene.points) {
+      if (point.free)
+        EXPECT_LT((force(s, point.name) - Vec3(0, 0, *point.body.wet_weight)).norm(), 2.0 * left) << k;
+      else
+        held += force(s, point.name);
+      if (point.free) load += *point.body.wet_weight;
+    }
+    for (const Line& line : s.model->lines) load += line.length * *scene.line_types[0].wet_weight;
+    EXPECT_LT((held - Vec3(0, 0, -load)).norm(), s.model->total_nodes() * left) << k;
+  }
+  RecordProperty("mean factorizations", factorizations / scenes);
+  EXPECT_LT(factorizations, 10 * scenes);
 }
 
 TEST(Network, IsTheSameForEveryLinearSolver) {
