@@ -79,6 +79,27 @@ INSTANTIATE_TEST_SUITE_P(Cases, Series,
                                            InSeries{"MeetingOnTheBed", 0, 400, 150, 0, 0.5, 1e-9}),
                          [](const auto& test) { return test.param.name; });
 
+TEST(LinesThatShareNothing, AreSolvedAsEachIsAlone) {
+  const auto scene = [](bool first, bool second) {
+    SceneBuilder b;
+    b.type(u40())
+        .current(0.0, {0.4, 0.1, 0})
+        .fixed("a", {0, 0, 0})
+        .fixed("b", {60, 0, -300})
+        .fixed("c", {0, 40, 0})
+        .free("d", {0, 40, -200}, weight(900.0));
+    if (first) b.line("a", "b").section("U40", 400.0, 150).load(120.0, weight(700.0));
+    if (second) b.line("c", "d").section("U40", 200.0, 90);
+    return b.scene;
+  };
+  const StaticSolution both(scene(true, true)), first(scene(true, false)), second(scene(false, true));
+  const LineResult other = observe_line(*both.model, both.state, 1);
+  EXPECT_NEAR(both.line.tension_from, first.line.tension_from, 1e-9 * first.line.tension_from);
+  EXPECT_NEAR(both.line.tension_to, first.line.tension_to, 1e-9 * first.line.tension_from);
+  EXPECT_NEAR(other.tension_from, second.line.tension_from, 1e-9 * second.line.tension_from);
+  EXPECT_LT((position(both, "d") - position(second, "d")).norm(), 1e-8 * 200.0);
+}
+
 /// Elastic catenary with the force (H, V) at its top end: horizontal and vertical span.
 Eigen::Vector2d span(double H, double V, double w, double L, double EA) {
   const double below = V - w * L, top = std::hypot(H, V), bottom = std::hypot(H, below);
