@@ -8,6 +8,7 @@
 
 #include "solver/bordered_solver.hpp"
 #include "solver/end_stiffness.hpp"
+#include "solver/static_failure.hpp"
 #include "solver/static_system.hpp"
 #include "tests/support/network_scenes.hpp"
 #include "tests/support/static_solution.hpp"
@@ -371,6 +372,15 @@ TEST(Network, ThatNothingHoldsIsRefused) {
   EXPECT_FALSE(report.converged);
   EXPECT_NE(report.failure.what.find("nothing holds"), std::string::npos);
   EXPECT_NE(report.failure.cause.find("\"b\""), std::string::npos);
+}
+
+TEST(Network, NamesThePointOfAnUnknown) {
+  const Model model = build_model(small_network(4, ModelChoice::cable));
+  for (const Hub& hub : model.hubs)
+    for (const Support& end : hub.ends)
+      for (std::size_t k = 0; k < 6; ++k)
+        EXPECT_EQ(meeting_point(model, model.dof(end.line, end.node) + k), k < 3 ? model.points[hub.point].name : "");
+  EXPECT_EQ(meeting_point(model, model.dof(0, 2)), "");
 }
 
 TEST(BorderedSolver, SaysWhichPointNothingHolds) {
