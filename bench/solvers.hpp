@@ -1,4 +1,4 @@
-// Every linear solver that the charts show: the backends of solver/linear, and SUNDIALS' own where it is installed.
+// Every linear solver that the charts show: the backends of solver/linear, and SUNDIALS' own.
 #pragma once
 
 #include <functional>
@@ -20,9 +20,7 @@ inline std::vector<NamedSolver> compared_solvers() {
   std::vector<NamedSolver> solvers;
   for (const LinearSolverKind kind : all_linear_solvers())
     solvers.push_back({std::string(name_of(kind)), [kind] { return make_linear_solver(kind); }});
-#ifdef HAWSER_SUNDIALS
   solvers.push_back({"sundials", make_sundials_band_solver});
-#endif
   return solvers;
 }
 

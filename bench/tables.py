@@ -195,6 +195,18 @@ def offsets(r):
               ['line', 'milliseconds an offset', 'minutes for 100 000', 'factorizations an offset', 'failed'], rows)
 
 
+def methods(r):
+    rows = []
+    for scene in (name.split('/')[2] for name in r.runs if name.startswith('method/newton/')):
+        cells = []
+        for method in ('newton', 'kinsol'):
+            run = r.runs.get(f'method/{method}/{scene}')
+            cells += [number(run['cpu_time']), f'{run["factorizations"]:.0f}'] if run else ['', '']
+        rows.append([f'`{scene}`'] + cells)
+    table('An equilibrium from its own start, without reading and meshing:',
+          ['scene', 'Newton, ms', 'factorizations', 'KINSOL, ms', 'factorizations'], rows)
+
+
 def write(folder, name, head, rows):
     with open(os.path.join(folder, name), 'w') as file:
         file.write(head + '\n')
@@ -239,6 +251,7 @@ def main():
     steps(r)
     scenes(r)
     offsets(r)
+    methods(r)
     if chosen.data:
         write_data(r, context, chosen.data)
 

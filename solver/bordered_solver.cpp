@@ -141,6 +141,27 @@ void BorderedSolver::solve(std::span<double> b) {
   }
 }
 
+void multiply(const Tangent& tangent, std::span<const double> x, std::span<double> y) {
+  const std::vector<BorderEnd>& ends = tangent.border.ends;
+  std::vector<double> held(x.begin(), x.end());
+  for (const BorderEnd& end : ends) std::fill_n(&held[end.r], 3, 0.0);
+  tangent.chain.multiply(held, y);
+  for (const BorderEnd& end : ends) {
+    Eigen::Map<Eigen::VectorXd> window(&y[end.window], end.column.rows());
+    window += end.column * Eigen::Map<const Vec3>(&x[end.r]);
+  }
+  std::vector<std::size_t> first(static_cast<std::size_t>(tangent.border.hubs), y.size());
+  for (const BorderEnd& end : ends) {
+    Eigen::Map<Vec3> here(&y[end.r]);
+    const Vec3 force = here + end.row * Eigen::Map<const Eigen::VectorXd>(&held[end.window], end.row.cols());
+    here.setZero();
+    std::size_t& at = first[static_cast<std::size_t>(end.hub)];
+    at = std::min(at, end.r);
+    Eigen::Map<Vec3> sum(&y[at]);
+    sum += force;
+  }
+}
+
 int negative_hub_pivots(const Tangent& tangent) {
   if (tangent.border.empty()) return 0;
   Tangent symmetric = tangent;

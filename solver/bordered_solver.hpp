@@ -56,6 +56,9 @@ class BorderedSolver {
   Eigen::VectorXd motion_;
 };
 
+/// y = T x, x with one r at all ends of a hub; in y the sum over its ends stands at the first one, zero at the others.
+void multiply(const Tangent& tangent, std::span<const double> x, std::span<double> y);
+
 /// Negative eigenvalues of the symmetric part of the hubs' stiffness; with those of the chains they make up those of the whole tangent (Haynsworth).
 int negative_hub_pivots(const Tangent& tangent);
 

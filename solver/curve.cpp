@@ -1,41 +1,79 @@
 #include "solver/curve.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace hawser {
 namespace {
 
-constexpr std::size_t most_known = 4;  // cubic: a higher degree follows the kinks of a touchdown no better
-constexpr int warm_iterations = 15;    // factorizations; a guess that needs more is no better than a cold start
+constexpr std::size_t most_known = 4;     // cubic: a higher degree follows the kinks of a touchdown no better
+constexpr int warm_iterations = 15;       // factorizations; a guess that needs more is no better than a cold start
+constexpr double difference_step = 1e-3;  // of the spacing of values: for dR/dp
+constexpr double first_share = 0.25;      // of the way to p: the first step along a branch
+constexpr double small_jump = 1e-4;       // of the length: nearer to the guess an equilibrium is on its branch
+constexpr double large_miss = 0.5;        // of the way from the last equilibrium to the guess
+constexpr double unlike = 3.0;            // ratio of two tangents, and
+constexpr double like_cosine = 0.8;       // angle between them, and
+constexpr double like_chord = 0.3;        // what the chord misses their mean by: beyond these two equilibria are not joined without a look
+constexpr double large_move = 2.5;        // of what the last step lets expect
 
-/// Numbers that two models share if a state of one is a state of the other.
-std::vector<int> layout_of(const Model& model) {
-  std::vector<int> layout;
-  for (const Line& line : model.lines) layout.insert(layout.end(), {static_cast<int>(line.family), line.nodes});
-  for (const Line& line : model.lines) layout.insert(layout.end(), {line.from_hub, line.to_hub});
-  for (const Joint& joint : model.joints) layout.insert(layout.end(), {static_cast<int>(joint.jump), joint.element});
-  return layout;
+/// Mean distance of the nodes of two states, of the longest line.
+double mean_distance(const Model& model, std::span<const double> a, std::span<const double> b) {
+  double sum = 0.0, longest = 0.0;
+  for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
+    longest = std::max(longest, model.lines[index].length);
+    for (int i = 0; i < model.lines[index].nodes; ++i) {
+      const std::size_t r = model.dof(index, i);
+      sum += (Eigen::Map<const Vec3>(&a[r]) - Eigen::Map<const Vec3>(&b[r])).squaredNorm();
+    }
+  }
+  return std::sqrt(sum / model.total_nodes()) / longest;
 }
 
-/// Moves the held ends of a line to where the model has them, and the line with them; a point where lines meet stays.
-void follow_ends(const Model& model, int index, State& state) {
-  const Line& line = model.lines[index];
-  const Chain& chain = model.chain(index);
-  const auto r = [&](int node) { return Eigen::Map<Vec3>(&state.q[chain.dof(node)]); };
-  const auto way = [&](int point, int node) {
-    return model.points[point].free ? Vec3(Vec3::Zero()) : Vec3(model.points[point].motion(0.0).r - r(node));
-  };
-  Vec3 from = way(line.from, 0), to = way(line.to, line.nodes - 1);
-  if (line.from_free) from = to;
-  if (line.to_free) to = from;
-  for (int i = 0; i < line.nodes; ++i) {
-    const double share = line.s[i] / line.length;
-    r(i) += (1.0 - share) * from + share * to;
-    if (chain.block == 6) Eigen::Map<Vec3>(&state.q[chain.dof(i) + 3]) += (to - from) / line.length;
+double spacing(const std::vector<double>& values) {
+  return (values.back() - values.front()) / std::max<double>(1.0, static_cast<double>(values.size()) - 1.0);
+}
+
+const char* describe(ContinuationEnd end) {
+  switch (end) {
+    case ContinuationEnd::reached:
+      return "reached the value";
+    case ContinuationEnd::left_range:
+      return "turned back and left the range";
+    case ContinuationEnd::stuck:
+      return "could not be followed further";
+    case ContinuationEnd::too_long:
+      return "was given up after too many steps";
+    case ContinuationEnd::not_unique:
+      return "turned back without a change of stability: its states are not unique";
   }
+  return "";
+}
+
+/// Water moves past the lines: the loads have no potential, and the elastic tangent does not see every fold.
+bool flows(const Model& model) { return model.wet && (model.current.fastest() > 0.0 || model.tow != Vec3::Zero()); }
+
+/// The folds and the equilibria at the values, but the answer itself.
+std::vector<PassedPoint> passed_points(ModelBranch& branch, const ContinuationReport& way, bool arrived) {
+  std::vector<PassedPoint> passed;
+  int iterations = 0;
+  for (const BranchPoint& point : way.points) {
+    iterations += point.factorizations;
+    if (point.kind == BranchPoint::Kind::step || (arrived && &point == &way.points.back())) continue;
+    std::vector<double> q = point.q;
+    if (!branch.move_to(point.p, q)) continue;
+    const bool fold = point.kind == BranchPoint::Kind::fold;
+    passed.push_back({point.p, fold, !fold && point.negative_pivots == 0, point.negative_pivots, iterations, point.residual, branch.state_of(q)});
+    iterations = 0;
+  }
+  return passed;
 }
 
 }  // namespace
+
+StaticCurve::StaticCurve(CurveWay way) : way_(std::move(way)) { std::sort(way_.values.begin(), way_.values.end()); }
 
 State StaticCurve::predicted(const Model& model, double p) const {
   State state = static_start(model, StaticStart::straight);
@@ -47,12 +85,108 @@ State StaticCurve::predicted(const Model& model, double p) const {
       if (&other != &known) weight *= (p - other.p) / (known.p - other.p);
     for (std::size_t i = 0; i < state.q.size(); ++i) state.q[i] += weight * known.q[i];
   }
-  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) follow_ends(model, line, state);
-  model.prescribe(state);
-  model.align_clamps(state);
+  follow_supports(model, state);
   state.v = resting.v;
   state.a = resting.a;
   return state;
+}
+
+/// The warm start may have jumped to another branch: it ended far from its guess, or moved much more than the step before.
+bool StaticCurve::off_the_branch(const Model& model, const State& guess, const State& found, double p) const {
+  const Known& last = known_.back();
+  const double missed = mean_distance(model, guess.q, found.q);
+  if (missed <= small_jump) return false;
+  if (missed > large_miss * mean_distance(model, guess.q, last.q)) return true;
+  if (known_.size() < 2) return false;
+  const Known& before = known_[known_.size() - 2];
+  const double expected = mean_distance(model, last.q, before.q) * std::abs((p - last.p) / (last.p - before.p));
+  return mean_distance(model, found.q, last.q) > large_move * expected;
+}
+
+/// The stable equilibrium nearest to the prediction, in `found`; true if it is the one the branch leads to.
+bool StaticCurve::warm_start(const Assembler& assembler, double p, const StaticOptions& options, State& found, CurveReport& report) const {
+  StaticOptions warm = options;
+  warm.start = StaticStart::given;
+  warm.max_iterations = std::min(warm_iterations, options.max_iterations);
+  const State guess = predicted(assembler.model(), p);
+  found = guess;
+  report.statics = solve_static(assembler, warm, found);
+  return report.statics.converged && !(way_.model_at && off_the_branch(assembler.model(), guess, found, p));
+}
+
+/// Two equilibria whose tangents dq/dp fit the chord between them lie on one smooth piece of a branch; next to a fold they do not.
+bool StaticCurve::joined(ModelBranch& branch, double p, const State& found, StaticReport& statics) const {
+  const Known& last = known_.back();
+  const auto tangent = [&](double at, std::vector<double> q, std::vector<double>& rate) {
+    BranchResponse response;
+    ++statics.iterations;
+    if (!branch.move_to(at, q) || !branch.respond(q, no_spring, response)) return false;
+    rate = std::move(response.parameter);
+    for (std::size_t i = 0; i < rate.size(); ++i) rate[i] += response.shift[i];
+    return true;
+  };
+  std::vector<double> a, b, missed = found.q;
+  if (!tangent(last.p, last.q, a) || !tangent(p, found.q, b)) return false;
+  for (std::size_t i = 0; i < missed.size(); ++i) missed[i] -= last.q[i];
+  const double chord = std::sqrt(branch.product(missed, missed));
+  for (std::size_t i = 0; i < missed.size(); ++i) missed[i] -= 0.5 * (p - last.p) * (a[i] + b[i]);
+  const double aa = branch.product(a, a), bb = branch.product(b, b), ab = branch.product(a, b);
+  return ab >= like_cosine * std::sqrt(aa * bb) && std::max(aa, bb) <= unlike * unlike * std::min(aa, bb) &&
+         std::sqrt(branch.product(missed, missed)) <= like_chord * chord;
+}
+
+/// Follows the branch from the last equilibrium to p; true if it leads to a stable equilibrium there, which is then the answer.
+bool StaticCurve::follow(ModelBranch& branch, const Model& model, double p, const StaticOptions& options, State& state, CurveReport& report) {
+  ContinuationOptions follow;
+  follow.stops = way_.values;
+  follow.target = p;
+  follow.folds_change_stability = !flows(model);
+  follow.first_step = first_share * std::abs(p - known_.back().p);
+  // What the last step moved says how a unit of p weighs; at first what the next one would move.
+  const bool second = known_.size() > 1;
+  if (second || report.statics.converged) {
+    const std::vector<double>& other = second ? known_[known_.size() - 2].q : state.q;
+    const double step = second ? known_.back().p - known_[known_.size() - 2].p : p - known_.back().p;
+    std::vector<double> motion = known_.back().q;
+    for (std::size_t i = 0; i < motion.size(); ++i) motion[i] -= other[i];
+    follow.motion_by_p = std::sqrt(branch.product(motion, motion)) / std::abs(step);
+  }
+  const ContinuationReport way = follow_branch(branch, known_.back().p, known_.back().q, follow);
+  StaticReport& statics = report.statics;
+  statics.stages.push_back(
+      fmt::format("along the branch: it {} after {} factorizations and {} folds", describe(way.end), way.factorizations, way.folds));
+  if (options.log) options.log(statics.stages.back());
+
+  const bool arrived = way.end == ContinuationEnd::reached && way.points.back().negative_pivots == 0;
+  if (way.folds > 0) report.passed = passed_points(branch, way, arrived);
+  statics.iterations += way.factorizations;
+  for (const PassedPoint& point : report.passed) statics.iterations -= point.iterations;
+  if (!arrived) return false;
+
+  std::vector<double> q = way.points.back().q;
+  branch.move_to(p, q);
+  const BranchResidual residual = branch.residual(q);
+  state = branch.state_of(q);
+  statics.converged = statics.stable = true;
+  statics.negative_pivots = 0;
+  statics.residual_force = residual.value;
+  statics.reference_force = residual.reference;
+  statics.roundoff_floor = residual.rounding;
+  statics.residual = way.points.back().residual;
+  statics.failure = {};
+  report.warm = true;
+  keep_last(way);
+  return true;
+}
+
+/// What the next prediction uses: past a fold only the equilibria behind it, at the values alone; nearer points would predict from too little.
+void StaticCurve::keep_last(const ContinuationReport& way) {
+  for (const BranchPoint& point : way.points) {
+    if (point.kind == BranchPoint::Kind::fold) known_.clear();
+    const bool other = known_.empty() || known_.back().p != point.p;
+    if (other && point.kind == BranchPoint::Kind::stop && &point != &way.points.back()) known_.push_back({point.p, point.q});
+    if (known_.size() > most_known) known_.pop_front();
+  }
 }
 
 CurveReport StaticCurve::next(const Assembler& assembler, double p, const StaticOptions& options, State& state) {
@@ -62,12 +196,10 @@ CurveReport StaticCurve::next(const Assembler& assembler, double p, const Static
   layout_ = std::move(layout);
 
   CurveReport report;
+  bool connected = false;
   if (!known_.empty()) {
-    StaticOptions warm = options;
-    warm.start = StaticStart::given;
-    warm.max_iterations = std::min(warm_iterations, options.max_iterations);
-    State found = predicted(model, p);
-    report.statics = solve_static(assembler, warm, found);
+    State found;
+    connected = warm_start(assembler, p, options, found, report);
     report.warm = report.statics.converged;
     if (report.warm) state = std::move(found);
   }
@@ -76,9 +208,20 @@ CurveReport StaticCurve::next(const Assembler& assembler, double p, const Static
     report.statics = solve_static(assembler, options, state);
     report.statics.iterations += tried.iterations;
     report.statics.stages.insert(report.statics.stages.begin(), tried.stages.begin(), tried.stages.end());
-    if (report.statics.converged) known_.clear();  // perhaps another branch
+  }
+  if (!connected && way_.model_at && !known_.empty() && !ended_) {
+    ModelBranch branch(way_.model_at, model, difference_step * spacing(way_.values), options);
+    connected = report.statics.converged && joined(branch, p, state, report.statics);
+    if (!connected) connected = follow(branch, model, p, options, state, report);
+    ended_ = !connected;
   }
   if (!report.statics.converged) return report;
+  if (!connected) {
+    known_.clear();
+    ++branches_;
+  }
+  report.branch = branches_;
+  ended_ = false;
   known_.push_back({p, state.q});
   if (known_.size() > most_known) known_.pop_front();
   return report;

@@ -95,7 +95,7 @@ bool free_of_compression(const Model& model, const State& state, double roundoff
   return true;
 }
 
-int negative_pivots_of_elastic_tangent(const Model& model, const State& state) {
+Model elastic_part(const Model& model) {
   Model elastic = model;
   std::fill(elastic.element.drag_normal.begin(), elastic.element.drag_normal.end(), 0.0);
   std::fill(elastic.element.drag_tangential.begin(), elastic.element.drag_tangential.end(), 0.0);
@@ -105,6 +105,11 @@ int negative_pivots_of_elastic_tangent(const Model& model, const State& state) {
     body.moment = none;
   }
   if (elastic.seabed) elastic.seabed->friction_tangent = FrictionTangent::frozen;
+  return elastic;
+}
+
+int negative_pivots_of_elastic_tangent(const Model& model, const State& state) {
+  const Model elastic = elastic_part(model);
   const Assembler assembler(elastic);
   Tangent tangent = assembler.make_tangent();
   std::vector<double> r(elastic.unknowns);

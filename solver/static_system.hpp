@@ -59,6 +59,9 @@ bool free_of_compression(const Model& model, const State& state, double roundoff
 /// applied moments are left out: their tangent is not symmetric, and its symmetric part says nothing about stability.
 int negative_pivots_of_elastic_tangent(const Model& model, const State& state);
 
+/// The model without those loads.
+Model elastic_part(const Model& model);
+
 /// Least strain tension [N] over all lines and its place.
 struct LeastTension {
   double value = 0.0, s = 0.0;

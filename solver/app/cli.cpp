@@ -66,24 +66,24 @@ void add_static(CLI::App& command, Request& request) {
   auto* stations = command.add_option("--stations", request.stations, "even stations in the JSON document (default: the nodes)")
                        ->check(CLI::Range(2, 10'000'000))
                        ->type_name("N");
-  command.add_option("--vary", request.vary, "the equilibria of n values of one key from a to b, spelled as for --set: CSV rows, or a JSON array")
-      ->type_name("KEY=a:b:n")
-      ->excludes(stations);
+  auto* probe = command.add_option("--probe", request.probe, "solve from N perturbed starts too and list the distinct equilibria")
+                    ->check(CLI::Range(1, 1'000'000))
+                    ->type_name("N");
+  auto* vary =
+      command
+          .add_option("--vary", request.vary, "the equilibria of n values of one key from a to b, spelled as for --set: CSV rows, or a JSON array")
+          ->type_name("KEY=a:b:n")
+          ->excludes(stations)
+          ->excludes(probe);
   command.add_option("--out", request.out, "folder for static.json, result.h5 and pictures; with --vary: curve.csv, curve.json, curve.png")
       ->type_name("DIR");
   command
       .add_option_function<std::string>(
-          "--method",
-          [](const std::string& method) {
-            if (method == "kinsol") refuse_unbuilt("--method kinsol");
-            if (method != "newton") throw InputError(fmt::format("--method {}: allowed are newton and kinsol", method));
-          },
-          "newton (default) or kinsol (not built yet)")
-      ->type_name("NAME");
-  command
-      .add_option_function<std::string>(
-          "--probe", [](const std::string&) { refuse_unbuilt("--probe"); }, "not built yet")
-      ->type_name("...");
+          "--method", [&request](const std::string& name) { request.method = name == "kinsol" ? StaticMethod::kinsol : StaticMethod::newton; },
+          "newton (default), or kinsol: SUNDIALS from the same starts, with the same certificate")
+      ->check(CLI::IsMember({"newton", "kinsol"}).description(""))
+      ->type_name("NAME")
+      ->excludes(vary);
 }
 
 int dispatch(int argc, const char* const* argv) {

@@ -15,6 +15,8 @@ namespace hawser {
 
 enum class ExitCode { done = 0, internal = 1, usage = 2, no_equilibrium = 3, integration_stopped = 4, failed_cases = 5, interrupted = 130 };
 
+enum class StaticMethod { newton, kinsol };
+
 struct Request {
   std::string scene;                   // path
   std::vector<std::string> overrides;  // "key=value"
@@ -24,6 +26,8 @@ struct Request {
   StaticStart start = StaticStart::catenary;
   std::string from;  // result file to start a static from
   int stations = 0;  // even stations; 0: the nodes
+  int probe = 0;     // perturbed starts of a static; 0: none
+  StaticMethod method = StaticMethod::newton;
   std::string vary;  // KEY=a:b:n of a static; empty: one equilibrium
 };
 

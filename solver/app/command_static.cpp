@@ -7,10 +7,12 @@
 #include <fstream>
 #include <limits>
 
+#include "solver/app/certificate.hpp"
 #include "solver/app/command_static_vary.hpp"
 #include "solver/app/plots.hpp"
 #include "solver/app/recorder_folder.hpp"
 #include "solver/app/text.hpp"
+#include "solver/sundials/kinsol.hpp"
 
 namespace hawser {
 namespace fs = std::filesystem;
@@ -83,13 +85,21 @@ StaticSolution solve_requested_static(const Request& request, const Scene& scene
   StaticSolution solution;
   solution.state = requested_start(request, scene, model, options);
   const Clock::time_point start = Clock::now();
-  solution.report = solve_static(assembler, options, solution.state);
+  const bool kinsol = request.method == StaticMethod::kinsol;
+  solution.report = kinsol ? solve_static_kinsol(assembler, options, solution.state) : solve_static(assembler, options, solution.state);
   solution.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  // The state of a failure is an equilibrium only where instability is what was wrong with it.
+  if (solution.report.converged || solution.report.negative_pivots > 0)
+    solution.mode = softest_mode(model, solution.state, solution.report.reference_force);
   solution.error_estimates.assign(model.lines.size(), std::numeric_limits<double>::quiet_NaN());
   if (solution.report.converged) {
     options.log = {};
     if (options.start == StaticStart::given) options.start = StaticStart::catenary;  // the coarse mesh has no given state
     solution.error_estimates = estimate_static_error(scene, options, model, solution.state);
+    if (request.probe > 0) {
+      solution.probe_options.starts = request.probe;
+      solution.probe = probe_equilibria(assembler, options, solution.state, solution.report, solution.probe_options);
+    }
   }
   return solution;
 }
@@ -106,8 +116,10 @@ int command_static(const Request& request) {
   const bool converged = solution.report.converged;
   if (request.json) fmt::print("{}\n", static_document(model, solution, request.stations).dump(2));
   if (!request.json && converged) fmt::print("{}", static_text(scene, model, solution));
-  if (!converged) say_failure(solution.report.failure);
-  if (converged && !solution.report.stable) say_warning("this equilibrium is not stable: the line would leave it at the least disturbance");
+  if (!converged) {
+    say_failure(solution.report.failure);
+    fmt::print(stderr, "{}", mode_text(model, solution.mode));
+  }
 
   if (folder) {
     write_result(folder->begin(), request, scene, model, solution);

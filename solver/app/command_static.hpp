@@ -2,11 +2,14 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "assembly/observables.hpp"
 #include "solver/app/cli.hpp"
+#include "solver/probe.hpp"
+#include "solver/stability.hpp"
 
 namespace hawser {
 
@@ -15,9 +18,12 @@ struct StaticSolution {
   StaticReport report;
   std::vector<double> error_estimates;  // relative, of the end tension, per line; NaN: not known
   double wall_seconds = 0.0;            // of the solve itself
+  std::optional<StabilityMode> mode;    // of an unstable or neutral state
+  std::optional<ProbeReport> probe;     // where asked for
+  ProbeOptions probe_options;
 };
 
-/// Solves, and where it converged estimates the error of the mesh. Stages are told on stderr unless quiet.
+/// Solves, and where it converged estimates the error of the mesh and probes if asked to. Stages are told on stderr unless quiet.
 StaticSolution solve_requested_static(const Request& request, const Scene& scene, const Assembler& assembler);
 
 /// What the request says of the solve, silent; and the first guess that --from or the shapes of lines give, with options.start = given.

@@ -5,6 +5,7 @@
 
 #include "assembly/observables.hpp"
 #include "assembly/seabed.hpp"
+#include "solver/app/certificate.hpp"
 #include "solver/app/command_static.hpp"
 #include "solver/app/text.hpp"
 #include "solver/end_stiffness.hpp"
@@ -72,6 +73,7 @@ Json line_json(const Model& model, const StaticSolution& solution, int index, in
   json["model"] = name_of(line.family);
   json["length"] = line.length;
   json["tension_min"] = result.tension_min;
+  json["tension_min_s"] = least_tension_place(line, result);
   json["tension_max"] = result.tension_max;
   json["curvature_max"] = result.curvature_max;
   json["curvature_max_s"] = result.curvature_max_s;
@@ -141,7 +143,9 @@ Json static_document(const Model& model, const StaticSolution& solution, int sta
   json["residual"] = report.residual;
   json["wall_seconds"] = solution.wall_seconds;
   json["stable"] = report.stable;
+  json["stability"] = stability_of(solution);
   json["negative_pivots"] = report.negative_pivots;
+  json["mode"] = mode_document(model, solution.mode);
   json["residual_force"] = report.residual_force;
   json["reference_force"] = report.reference_force;
   json["roundoff_floor"] = report.roundoff_floor;
@@ -162,20 +166,22 @@ Json static_document(const Model& model, const StaticSolution& solution, int sta
     json["lines"][model.lines[static_cast<std::size_t>(end.line)].name][end.at_from ? "stiffness_from" : "stiffness_to"] = to_json(end.value);
   }
   json["points"] = points_document(model, observe_points(model, solution.state));
+  if (solution.probe) json["probe"] = probe_document(model, *solution.probe, solution.probe_options);
   return json;
 }
 
 std::string static_text(const Scene& scene, const Model& model, const StaticSolution& solution) {
   const StaticReport& report = solution.report;
   std::vector<std::vector<std::string>> lines{
-      {"line", "model", "elements", "length", "tension from", "tension to", "least", "greatest", "mesh error"}};
+      {"line", "model", "elements", "length", "tension from", "tension to", "least", "at s [m]", "greatest", "compressed", "mesh error"}};
   for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) {
     const Line& line = model.lines[static_cast<std::size_t>(i)];
     const LineResult r = observe_line(model, solution.state, i);
     const double error = solution.error_estimates[static_cast<std::size_t>(i)];
     lines.push_back({line.name, name_of(line.family), fmt::format("{}", line.elements), fmt::format("{:.6g} m", line.length),
                      force_text(r.tension_from, report), force_text(r.tension_to, report), force_text(r.tension_min, report),
-                     force_text(r.tension_max, report), std::isfinite(error) ? fmt::format("{:.1e}", error) : "?"});
+                     fmt::format("{:.6g}", least_tension_place(line, r)), force_text(r.tension_max, report),
+                     fmt::format("{:.4g} m", r.compressed_length), std::isfinite(error) ? fmt::format("{:.1e}", error) : "?"});
   }
   std::vector<std::vector<std::string>> points{{"point", "x [m]", "y [m]", "z [m]", "force x", "force y", "force z"}};
   const std::vector<PointResult> results = observe_points(model, solution.state);
@@ -186,10 +192,11 @@ std::string static_text(const Scene& scene, const Model& model, const StaticSolu
     points.push_back(row);
   }
   const std::string on_bed = model.seabed ? seabed_text(model, solution.state) : "";
-  return fmt::format("{}\n{} equilibrium after {} factorizations ({}), residual {:.1e} of {}, {:.3g} s\n\n{}\n{}{}{}", scene.title,
-                     report.stable ? "stable" : "UNSTABLE", report.iterations, report.linear_solver, report.residual,
-                     with_prefix(report.reference_force, "N"), solution.wall_seconds, table(lines), on_bed, table(points),
-                     stiffness_text(model, solution));
+  const std::string probe = solution.probe ? probe_text(model, *solution.probe, solution.probe_options) : "";
+  return fmt::format("{}\n{} equilibrium after {} factorizations ({}), residual {:.1e} of {}, {:.3g} s\n\n{}{}\n{}{}{}{}", scene.title,
+                     stability_of(solution), report.iterations, report.linear_solver, report.residual, with_prefix(report.reference_force, "N"),
+                     solution.wall_seconds, mode_text(model, solution.mode), table(lines), on_bed, table(points), stiffness_text(model, solution),
+                     probe);
 }
 
 }  // namespace hawser

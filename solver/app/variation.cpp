@@ -76,9 +76,9 @@ void read_range(Variation& out, const std::string& argument, std::string_view ra
 
 }  // namespace
 
-double Variation::value(int i) const { return i == count - 1 ? last : first + (last - first) * i / (count - 1); }
+double Variation::value(double i) const { return i == count - 1 ? last : first + (last - first) * i / (count - 1); }
 
-std::string Variation::override_at(int i) const {
+std::string Variation::override_at(double i) const {
   const double v = value(i);
   // Whole numbers without a point: keys such as `elements` want them so, and no key minds.
   const std::string number = v == std::floor(v) && std::abs(v) < whole_below ? fmt::format("{}", static_cast<long long>(v)) : fmt::format("{}", v);

@@ -14,11 +14,11 @@ struct Variation {
   double first = 0.0, last = 0.0;
   int count = 0;
 
-  /// Value number i of 0 to count - 1, in the unit.
-  double value(int i) const;
+  /// Value number i of 0 to count - 1, in the unit; between whole numbers those between.
+  double value(double i) const;
 
   /// The override that sets it, "key=value".
-  std::string override_at(int i) const;
+  std::string override_at(double i) const;
 };
 
 /// Throws InputError that names the option and says what is wrong with its argument.

@@ -31,7 +31,9 @@ TEST_F(Cli, BadUsageEndsWithCodeTwoAndSaysWhyOnStderr) {
   write("scene.toml", small_scene);
   for (const char* arguments :
        {"", "nonsense", "static", "static scene.toml --nonsense", "static scene.toml --start sideways", "static scene.toml --stations 1",
-        "static scene.toml --method magic", "run scene.toml --threads -1", "static missing.toml", "static scene.toml --from missing.h5",
+        "static scene.toml --method magic", "static scene.toml --probe 0", "static scene.toml --probe -3", "static scene.toml --probe some",
+        "static scene.toml --probe 3 --vary points.top.position.0=0:1:2", "static scene.toml --method kinsol --vary points.top.position.0=0:1:2",
+        "run scene.toml --probe 3", "run scene.toml --threads -1", "static missing.toml", "static scene.toml --from missing.h5",
         "run scene.toml --out scene.toml", "static scene.toml --set nonsense=1", "static scene.toml --from a --start straight"}) {
     const Outcome outcome = hawser(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
@@ -42,8 +44,7 @@ TEST_F(Cli, BadUsageEndsWithCodeTwoAndSaysWhyOnStderr) {
 
 TEST_F(Cli, WhatIsNotBuiltYetIsRefusedByName) {
   write("scene.toml", small_scene);
-  for (const char* arguments : {"modes scene.toml -n 20 --json", "sweep scene.toml", "chart scene.toml", "report scene.toml", "convert scene.toml",
-                                "static scene.toml --method kinsol", "static scene.toml --probe 3"}) {
+  for (const char* arguments : {"modes scene.toml -n 20 --json", "sweep scene.toml", "chart scene.toml", "report scene.toml", "convert scene.toml"}) {
     const Outcome outcome = hawser(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_NE(outcome.err.find("not built yet"), std::string::npos) << arguments;

@@ -168,5 +168,70 @@ TEST_F(CliVary, AStoredStateStartsTheFirstValue) {
   EXPECT_LE(rows_of(outcome.out)[0].at("iterations"), 1.0);
 }
 
+/// A pipe in an arch on a level bed, pushed through by a force across it (tests/solver/model_branch_test.cpp).
+const std::string arch_scene = R"([environment]
+water_density = 0.0
+depth = 20.0
+[environment.seabed]
+stiffness = 1.0e3
+[line_types.pipe]
+diameter = 0.04
+mass = 2.5
+wet_weight = 10.0
+EA = 3.84e5
+EI = 100.0
+[points.a]
+position = [0.0, 0.0, -20.01]
+[points.b]
+position = [9.9958337, 0.0, -20.01]
+[lines.pipe]
+from = "a"
+to = "b"
+sections = [ { type = "pipe", length = 10.0, elements = 32 } ]
+loads = [ { at = 5.0, force = [0.0, -0.1, 0.0] } ]
+from_end = { clamped = [0.99875, 0.04998, 0.0] }
+to_end = { clamped = [0.99875, -0.04998, 0.0] }
+)";
+
+TEST_F(CliVary, FoldsArePassedOnOneBranchAndTheirRowsAreMarked) {
+  write("scene.toml", arch_scene);
+  const std::string arguments = "static scene.toml --vary lines.pipe.loads.0.force.1=-0.6:-3:7 --out results";
+  const Outcome outcome = hawser(arguments);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::vector<double> values, folds, unstable;
+  int asked = 0;
+  const std::vector<Row> rows = rows_of(outcome.out);
+  for (const Row& row : rows) {
+    EXPECT_EQ(row.at("converged"), 1.0);
+    EXPECT_EQ(row.at("branch"), 1.0);
+    EXPECT_EQ(row.at("stable") == 1.0, row.at("fold") == 0.0 && row.at("negative_pivots") == 0.0);
+    if (row.at("fold") == 1.0) {
+      folds.push_back(row.at("value"));
+    } else {
+      (row.at("stable") == 1.0 ? values : unstable).push_back(row.at("value"));
+      const double steps = (row.at("value") + 0.6) / -0.4;
+      EXPECT_NEAR(steps, std::round(steps), 1e-9);  // at the values asked for
+      if (row.at("stable") == 1.0) ++asked;
+    }
+  }
+  // Shallow theory: -2.206 and -1.748; the curve is measured elsewhere, here it matters which values lie between the folds.
+  ASSERT_EQ(folds.size(), 2u);
+  EXPECT_NEAR(folds[0], -2.206, 0.01);
+  EXPECT_NEAR(folds[1], -1.748, 0.01);
+  EXPECT_EQ(unstable.size(), 2u);  // -2.2 and -1.8
+  EXPECT_EQ(asked, 7 + 2);         // and there a second stable state, after the snap
+
+  const nlohmann::json array = nlohmann::json::parse(contents(folder_ / "results/curve.json"));
+  ASSERT_EQ(array.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(array[i].at("value"), rows[i].at("value"));
+    for (const char* key : {"fold", "stable"}) EXPECT_EQ(array[i].at(key).get<bool>(), rows[i].at(key) == 1.0) << key;
+    for (const char* key : {"branch", "negative_pivots"}) EXPECT_EQ(array[i].at(key), rows[i].at(key)) << key;
+    EXPECT_EQ(array[i].at("lines").at("pipe").at("tension_from"), rows[i].at("pipe.tension_from"));
+  }
+  EXPECT_NE(outcome.err.find("the branch folds"), std::string::npos);
+  EXPECT_NE(contents(folder_ / "results/plots/curve.gp").find("unstable"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hawser::test

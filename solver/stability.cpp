@@ -1,0 +1,163 @@
+#include "solver/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/assembler.hpp"
+#include "solver/bordered_solver.hpp"
+#include "solver/static_system.hpp"
+
+namespace hawser {
+namespace {
+
+constexpr double neutral_share = 1e-6;  // of reference force / length^2
+constexpr double bracket_width = 1e-3;  // relative
+constexpr int most_doublings = 60;      // of the first bracket
+constexpr int inverse_iterations = 12;
+
+double longest_line(const Model& model) {
+  double longest = 0.0;
+  for (const Line& line : model.lines) longest = std::max(longest, line.length);
+  return longest;
+}
+
+/// The diagonal of M, over the chain unknowns; zero where a support holds.
+std::vector<double> mode_mass(const Model& model) {
+  std::vector<double> mass(model.dofs, 0.0);
+  for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
+    const Line& line = model.lines[index];
+    const Chain& chain = model.chain(index);
+    for (int i = 0; i < line.nodes; ++i) {
+      const double before = i > 0 ? line.s[i] - line.s[i - 1] : 0.0, after = i + 1 < line.nodes ? line.s[i + 1] - line.s[i] : 0.0;
+      const double l = model.node_length[line.first_node + i], carried = 0.5 * (before + after);
+      for (int k = 0; k < chain.block; ++k) mass[chain.dof(i) + k] = carried * (k < 3 ? 1.0 : l * l);
+    }
+  }
+  for (const Support& support : model.supports) {
+    const auto first = mass.begin() + static_cast<std::ptrdiff_t>(model.dof(support.line, support.node));
+    if (support.position) std::fill_n(first, 3, 0.0);
+    if (support.clamped && model.chain(support.line).block == 6) std::fill_n(first + 3, 3, 0.0);
+  }
+  return mass;
+}
+
+/// K - sigma M and what is asked of it.
+class Pencil {
+ public:
+  Pencil(const Model& model, const State& state)
+      : elastic_(elastic_part(model)), assembler_(elastic_), tangent_(assembler_.make_tangent()), mass_(mode_mass(model)) {
+    std::vector<double> r(model.unknowns);
+    assembler_.tangent(state, TangentWeights{}, TangentFloor{}, r, tangent_);
+    tangent_.symmetrize();
+    shifted_ = tangent_;
+    chain_mass_ = mass_;
+    for (const BorderEnd& end : tangent_.border.ends) std::fill_n(&chain_mass_[end.r], 3, 0.0);
+  }
+
+  int below(double sigma) {
+    shift(sigma);
+    return inertia_of_symmetric_part(shifted_.chain).negative + tangent_.negative_inner_pivots() + negative_hub_pivots(shifted_);
+  }
+
+  /// Inverse iteration with K - sigma M; returns the Rayleigh quotient and the mode over all unknowns. Nothing where it cannot be factorized.
+  std::optional<double> iterate(double sigma, std::vector<double>& mode) {
+    shift(sigma);
+    const auto chains = make_linear_solver(LinearSolverKind::automatic);
+    BorderedSolver linear(*chains);
+    linear.analyze(shifted_);
+    if (linear.factorize(shifted_).status != FactorStatus::ok) return std::nullopt;
+    std::vector<double> x(mass_.size()), kx(mass_.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = mass_[i] * (1.0 + 0.5 * std::sin(1.7 * static_cast<double>(i)));  // no symmetry of its own
+    double quotient = 0.0;
+    for (int k = 0; k < inverse_iterations; ++k) {
+      linear.solve(x);
+      multiply(tangent_, x, kx);
+      double energy = 0.0, size = 0.0;
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        if (mass_[i] > 0.0) energy += x[i] * kx[i];
+        size += mass_[i] * x[i] * x[i];
+      }
+      quotient = energy / size;
+      if (k + 1 == inverse_iterations) break;
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] *= mass_[i] / std::sqrt(size);
+    }
+    mode.assign(elastic_.unknowns, 0.0);
+    assembler_.expand(with_no_residual(), x, mode);
+    return quotient;
+  }
+
+ private:
+  void shift(double sigma) {
+    shifted_ = tangent_;
+    for (const Chain& chain : shifted_.chain.chains())
+      for (int i = 0; i < chain.nodes; ++i)
+        for (int k = 0; k < chain.block; ++k)
+          shifted_.chain.D(chain, i)[k * (chain.block + 1)] -= sigma * chain_mass_[chain.dof(i) + static_cast<std::size_t>(k)];
+    for (BorderEnd& end : shifted_.border.ends)
+      for (int k = 0; k < 3; ++k) {
+        const auto own = static_cast<Eigen::Index>(end.r - end.window) + k;
+        end.column(own, k) = end.row(k, own) = end.column(own, k) - sigma * mass_[end.r + static_cast<std::size_t>(k)];
+      }
+  }
+
+  const Tangent& with_no_residual() {
+    const std::vector<double> none(elastic_.unknowns, 0.0);
+    std::vector<double> rhs(elastic_.dofs);
+    assembler_.reduce(tangent_, none, rhs);
+    return tangent_;
+  }
+
+  Model elastic_;
+  Assembler assembler_;
+  Tangent tangent_;
+  Tangent shifted_;
+  std::vector<double> mass_, chain_mass_;  // of the chains with the ends at hubs held
+};
+
+/// Scales the mode to 1 m at its largest displacement and says where that is.
+void normalise(const Model& model, StabilityMode& mode) {
+  double largest = 0.0;
+  for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
+    for (int i = 0; i < model.lines[index].nodes; ++i) {
+      const Eigen::Map<const Vec3> r(&mode.shape[model.dof(index, i)]);
+      if (r.norm() <= largest) continue;
+      largest = r.norm();
+      mode.line = index;
+      mode.s = model.lines[index].s[i];
+      mode.direction = r / largest;
+    }
+  }
+  if (largest == 0.0) return;
+  double sign = 1.0;
+  for (int axis = 2; axis >= 0; --axis)
+    if (std::abs(mode.direction[axis]) > 0.5 * mode.direction.cwiseAbs().maxCoeff()) sign = std::copysign(1.0, mode.direction[axis]);
+  mode.direction *= sign;
+  for (double& x : mode.shape) x *= sign / largest;
+}
+
+}  // namespace
+
+std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force) {
+  const double neutral = neutral_share * reference_force / std::pow(longest_line(model), 2);
+  if (!(neutral > 0.0)) return std::nullopt;
+  Pencil pencil(model, state);
+  if (pencil.below(neutral) == 0) return std::nullopt;
+  double low = -neutral, high = neutral;
+  for (int i = 0; i < most_doublings && pencil.below(low) > 0; ++i) {
+    high = low;
+    low *= 4.0;
+  }
+  while (high - low > bracket_width * std::max(neutral, std::abs(low))) {
+    const double middle = 0.5 * (low + high);
+    (pencil.below(middle) > 0 ? high : low) = middle;
+  }
+  StabilityMode mode;
+  const std::optional<double> stiffness = pencil.iterate(low, mode.shape);
+  if (!stiffness) return std::nullopt;
+  mode.stiffness = *stiffness;
+  mode.negative_pivots = pencil.below(-neutral);
+  normalise(model, mode);
+  return mode;
+}
+
+}  // namespace hawser

@@ -1,0 +1,33 @@
+// The softest direction of an equilibrium: the mode of least stiffness of the elastic tangent K (drag and applied moments left out,
+// friction frozen: static_system.hpp).
+//
+//   K phi = lambda M phi,      lambda [N/m^2]: restoring force per metre of line and metre of displacement,
+//
+// M: the length of line that a node carries, for r', times the square of the shorter element at it; for inner unknowns of jumps 0. lambda < 0: the
+// state is unstable along phi; |lambda| <= neutral: it is neutral, nothing holds it along phi. By Sylvester's law K - sigma M has as many negative
+// pivots as there are lambda below sigma: bisection in sigma brackets the least one (one pass of the chain each), and inverse iteration from below
+// it, where K - sigma M is positive definite, gives the mode.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "assembly/model.hpp"
+#include "assembly/state.hpp"
+
+namespace hawser {
+
+struct StabilityMode {
+  double stiffness = 0.0;          // N/m^2, lambda
+  int negative_pivots = 0;         // directions with lambda < 0, neutral ones left out
+  std::vector<double> shape;       // Model::unknowns entries; the largest displacement is 1 m
+  int line = 0;                    // where that is
+  double s = 0.0;                  // m
+  Vec3 direction = Vec3::UnitX();  // of it; the first component above half of the largest is positive
+};
+
+/// The mode of least stiffness where the state is unstable or neutral along it; nothing where it is stable. `reference_force` [N]: of the
+/// statics (solver/norms.hpp); neutral = 1e-6 reference_force/L^2 with the longest line L.
+std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force);
+
+}  // namespace hawser

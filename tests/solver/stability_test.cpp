@@ -1,0 +1,79 @@
+// The softest mode of unstable and neutral equilibria, against closed forms of columns and strings.
+#include "solver/stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "assembly/observables.hpp"
+#include "solver/static_system.hpp"
+#include "tests/support/scene_builder.hpp"
+#include "tests/support/static_solution.hpp"
+
+namespace hawser::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A straight weightless line along x of unstretched length L between points `stretch` L apart.
+struct Straight {
+  Straight(double EA, double EI, double stretch, int elements)
+      : model(build_model(SceneBuilder()
+                              .dry()
+                              .type(line_type("line", EA, 0.0, EI))
+                              .fixed("a", {0, 0, 0})
+                              .fixed("b", {stretch * L, 0, 0})
+                              .line("a", "b", EI > 0.0 ? ModelChoice::beam : ModelChoice::cable)
+                              .section("line", L, elements)
+                              .scene)),
+        state(static_start(model, StaticStart::straight)) {}
+
+  static constexpr double L = 10.0;
+  Model model;
+  State state;
+};
+
+TEST(SoftestMode, OfAColumnAboveItsEulerLoadIsAHalfWaveOfKnownStiffness) {
+  // Pinned, compressed by P = EA e: lambda_n = (n pi/L)^2 ((n pi/L)^2 EI - P) per length to first order in the strain e = P/EA; each twice (y and z).
+  const double EI = 100.0, EA = 1.0e7, euler = pi * pi * EI / (Straight::L * Straight::L), P = 2.0 * euler;
+  const Straight column(EA, EI, 1.0 - P / EA, 16);
+  const std::optional<StabilityMode> mode = softest_mode(column.model, column.state, P);
+  ASSERT_TRUE(mode);
+  EXPECT_EQ(mode->negative_pivots, 2);
+  EXPECT_EQ(negative_pivots_of_elastic_tangent(column.model, column.state), 2);
+  // M counts the slopes too: (l pi/L)^2 of the displacements. What is left is strain, 2e-5, and the mesh, (pi/16)^4/720 of the bending part.
+  const double expected = -std::pow(pi / Straight::L, 2) * euler / (1.0 + std::pow(pi / 16.0, 2));
+  EXPECT_NEAR(mode->stiffness, expected, 1e-4 * std::abs(expected));
+  EXPECT_NEAR(mode->s, 5.0, 1e-9);
+  EXPECT_NEAR(mode->direction.x(), 0.0, 1e-6);
+  const double largest = Eigen::Map<const Vec3>(&mode->shape[column.model.dof(0, 8)]).norm();
+  EXPECT_NEAR(largest, 1.0, 1e-12);
+  for (int i = 0; i <= 16; ++i) {
+    const Vec3 r = Eigen::Map<const Vec3>(&mode->shape[column.model.dof(0, i)]);
+    EXPECT_NEAR(r.dot(mode->direction), std::sin(pi * i / 16.0), 1e-4) << i;
+  }
+}
+
+TEST(SoftestMode, ATautStringHasNone) {
+  const Straight string(1.0e6, 0.0, 1.001, 16);
+  EXPECT_FALSE(softest_mode(string.model, string.state, 1000.0));
+}
+
+TEST(SoftestMode, AnUnstrainedStringIsNeutralAcross) {
+  const Straight string(1.0e6, 0.0, 1.0, 16);
+  const std::optional<StabilityMode> mode = softest_mode(string.model, string.state, 1000.0);
+  ASSERT_TRUE(mode);
+  EXPECT_EQ(mode->negative_pivots, 0);
+  EXPECT_LE(std::abs(mode->stiffness), 1e-6 * 1000.0 / 100.0);
+  EXPECT_NEAR(mode->direction.x(), 0.0, 1e-6);
+}
+
+TEST(SoftestMode, AHangingCatenaryHasNone) {
+  const StaticSolution solution(
+      SceneBuilder().type(u40()).fixed("a", {0, 0, -500}).fixed("b", {600, 0, 0}).line("a", "b").section("U40", 900.0, 30).scene);
+  EXPECT_FALSE(softest_mode(*solution.model, solution.state, solution.report.reference_force));
+}
+
+}  // namespace
+}  // namespace hawser::test
