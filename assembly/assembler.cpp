@@ -28,6 +28,11 @@ int Tangent::negative_inner_pivots() const {
   return n;
 }
 
+void Tangent::symmetrize() {
+  chain.symmetrize();
+  border.symmetrize();
+}
+
 /// Tables in the layout of the kernels, and scratch; nothing here outlives a call as a result.
 struct Assembler::Impl {
   struct PanelOf {
@@ -181,6 +186,7 @@ Tangent Assembler::make_tangent() const {
   Tangent t;
   t.chain = BlockTridiagonal(model_.chains);
   t.eliminations.resize(model_.joints.size());
+  t.border = make_border(model_);
   return t;
 }
 
@@ -205,6 +211,7 @@ void Assembler::tangent(const State& state, const TangentWeights& weights, const
   impl_->run(state, weights, r.data(), tangent.chain.values().data());
   impl_->add_beside(state, weights, floor, r, AddedBlocks(tangent.chain), tangent.eliminations);
   for (const Support& support : model_.supports) constrain(model_, support, tangent.chain);
+  take_border(model_, tangent.chain, tangent.border);
 }
 
 TangentPanels Assembler::tangent_panels(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r,
@@ -232,6 +239,7 @@ void Assembler::expand(const Tangent& tangent, std::span<const double> x, std::s
 
 void Assembler::project(std::span<double> r) const {
   for (const Support& support : model_.supports) project_support(model_, support, r);
+  project_hubs(model_, r);
 }
 
 TangentPanels::TangentPanels(const Assembler& assembler, const State& state, const TangentWeights& weights, const TangentFloor& floor,

@@ -6,7 +6,7 @@
 // R has Model::unknowns entries in N (conjugate to r) and N m (conjugate to r'). At a support R is the force that the
 // support must exert on the line: it is not zero at equilibrium. The tangent is constrained (rows and columns of
 // prescribed unknowns are those of the identity, scaled) and condensed (inner unknowns of joints eliminated), so a
-// linear solver sees only the uniform blocks:
+// linear solver sees only the uniform blocks, and of hubs a border (hubs.hpp):
 //     tangent(...)  ->  reduce(T, R) = rhs  ->  solve  ->  expand(T, rhs, d)
 // Results are the same bits for any number of threads.
 #pragma once
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "assembly/block_tridiagonal.hpp"
+#include "assembly/hubs.hpp"
 #include "assembly/matrix_panels.hpp"
 #include "assembly/model.hpp"
 #include "assembly/state.hpp"
@@ -35,7 +36,11 @@ struct Elimination {
 struct Tangent {
   BlockTridiagonal chain;
   std::vector<Elimination> eliminations;  // one per Model::joints
+  Border border;                          // of the hubs; the chains hold their ends
   int negative_inner_pivots() const;
+
+  /// Chains and border become their symmetric part.
+  void symmetrize();
 };
 
 class TangentPanels;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
@@ -40,6 +41,11 @@ void Model::prescribe(State& state) const {
       state.a[d + c] = k.a[c];
     }
   }
+  for (const Hub& hub : hubs) {
+    const std::size_t first = dof(hub.ends.front().line, hub.ends.front().node);
+    for (const Support& end : hub.ends)
+      for (std::vector<double>* x : {&state.q, &state.v, &state.a}) std::copy_n(&(*x)[first], 3, &(*x)[dof(end.line, end.node)]);
+  }
 }
 
 void Model::align_clamps(State& state) const {
@@ -73,6 +79,8 @@ class ModelBuilder {
     model_.water_density = scene_.environment.water_density;
     add_current();
     add_points();
+    for (const LineSpec& line : scene_.lines)
+      for (const std::string* end : {&line.from, &line.to}) ++ends_at_[point_index(*end)];
     for (const LineSpec& line : scene_.lines) add_line(line);
     number_unknowns();
     model_.seabed = make_seabed(scene_, model_);
@@ -121,8 +129,8 @@ class ModelBuilder {
     line.from = point_index(spec.from);
     line.to = point_index(spec.to);
     line.length = mesh.s.back();
-    line.from_free = model_.points[line.from].free;
-    line.to_free = model_.points[line.to].free;
+    line.from_free = model_.points[line.from].free && ends_at_[line.from] == 1;
+    line.to_free = model_.points[line.to].free && ends_at_[line.to] == 1;
     line.s = mesh.s;
     const int index = static_cast<int>(model_.lines.size());
     for (int e = 0; e < line.elements; ++e) add_element(mesh.s[e + 1] - mesh.s[e], *mesh.type[e]);
@@ -133,8 +141,8 @@ class ModelBuilder {
     }
     for (const MeshJoint& j : mesh.joints) model_.joints.push_back({j.jump, index, line.first_element + j.node - 1, j.node, 0});
     model_.chains.push_back({line.family == Family::bar ? 3 : 6, line.nodes, 0, 0});
-    add_end(spec.from_end, line.from, index, 0);
-    add_end(spec.to_end, line.to, index, line.nodes - 1);
+    line.from_hub = add_end(spec.from_end, line.from, index, 0);
+    line.to_hub = add_end(spec.to_end, line.to, index, line.nodes - 1);
     add_loads(spec, mesh, index, line.first_element);
     model_.lines.push_back(std::move(line));
   }
@@ -162,13 +170,21 @@ class ModelBuilder {
         (rho > 0.0 && (type.drag_normal > 0.0 || type.drag_tangential > 0.0 || type.added_mass_normal > 0.0 || type.added_mass_tangential > 0.0));
   }
 
-  void add_end(const EndSpec& end, int point, int line, int node) {
-    if (model_.points[point].free) {
-      const PointSpec& p = scene_.points[point];
-      add_body(p.body, TimeForce{}, line, node);
-    } else {
-      model_.supports.push_back({line, node, point, true, end.clamped, end.direction.normalized()});
+  /// The number of the hub where the end is at one, else -1.
+  int add_end(const EndSpec& end, int point, int line, int node) {
+    const bool held = !model_.points[point].free;
+    const Support support{line, node, point, true, held && end.clamped, end.direction.normalized()};
+    if (held) {
+      model_.supports.push_back(support);
+      return -1;
     }
+    const auto known = std::find_if(model_.hubs.begin(), model_.hubs.end(), [point](const Hub& hub) { return hub.point == point; });
+    if (known == model_.hubs.end()) add_body(scene_.points[point].body, TimeForce{}, line, node);
+    if (ends_at_[point] == 1) return -1;
+    const int index = static_cast<int>(known - model_.hubs.begin());
+    if (known == model_.hubs.end()) model_.hubs.push_back({point, {}});
+    model_.hubs[index].ends.push_back(support);
+    return index;
   }
 
   void add_body(const BodySpec& body, const TimeForce& moment, int line, int node) {
@@ -201,6 +217,7 @@ class ModelBuilder {
 
   const Scene& scene_;
   Model model_;
+  std::map<int, int> ends_at_;  // line ends at each point
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 // Lines are chains of nodes; nodes and elements are numbered through all lines. Node i of a line has the unknowns
 //   bar: r (3);   cable, beam: r, r' = dr/ds (6),   s = unstretched arc length from the `from` end.
 // Properties are per unstretched length and per element, as arrays over all elements.
+// Free points at which several line ends meet are hubs: every end keeps its place in State::q, and the r of all of them is one.
 #pragma once
 
 #include <optional>
@@ -59,6 +60,12 @@ struct Support {
   Vec3 direction = Vec3::UnitX();  // unit vector, clamped ends
 };
 
+/// A free point at which two or more line ends meet: the r of these ends is one unknown vector (hubs.hpp).
+struct Hub {
+  int point;
+  std::vector<Support> ends;  // the body of the point is at the first one
+};
+
 struct ModelPoint {
   std::string name;
   bool free = false;
@@ -71,10 +78,11 @@ struct Line {
   Family family;
   int first_node, nodes;
   int first_element, elements;
-  int from, to;   // points
-  double length;  // m, unstretched
-  bool from_free, to_free;
-  std::vector<double> s;  // arc length of each node
+  int from, to;                    // points
+  double length;                   // m, unstretched
+  bool from_free, to_free;         // ends at a free point where no other line ends
+  int from_hub = -1, to_hub = -1;  // hubs; -1: none
+  std::vector<double> s;           // arc length of each node
 };
 
 /// Properties per element, structure of arrays. Weight is positive down.
@@ -115,6 +123,7 @@ struct Model {
   std::vector<Body> bodies;
   std::vector<SpreadLoad> spread_loads;
   std::vector<Support> supports;
+  std::vector<Hub> hubs;
   std::vector<double> node_length;  // m: the shorter adjacent element, for norms (theory 6.1)
   Current current;
   std::optional<Seabed> seabed;
@@ -135,7 +144,8 @@ struct Model {
   /// A state of the right size, all zero.
   State make_state() const;
 
-  /// Writes the prescribed positions, velocities and accelerations of the supports at state.t (slopes are untouched).
+  /// Writes the prescribed positions, velocities and accelerations of the supports at state.t, and gives all ends at a hub those of its
+  /// first end (slopes are untouched).
   void prescribe(State& state) const;
 
   /// Puts r' of clamped nodes along their direction, keeping its length.

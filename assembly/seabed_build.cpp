@@ -82,11 +82,12 @@ std::optional<Seabed> make_seabed(const Scene& scene, const Model& model) {
     const auto grounded = [&](const Vec3& end, const SectionSpec& section) {
       return height_above(bed.surface, end) <= grounding_height(find_type(section.type, scene.line_types).diameter, line.length);
     };
-    const bool from = !line.from_free && grounded(a, written.sections.front()), to = !line.to_free && grounded(b, written.sections.back());
+    const bool from_held = !model.points[line.from].free, to_held = !model.points[line.to].free;
+    const bool from = from_held && grounded(a, written.sections.front()), to = to_held && grounded(b, written.sections.back());
     if (!from && !to) continue;
     Vec3 direction = from ? Vec3(b - a) : Vec3(a - b);
     direction.z() = 0.0;
-    const double way = line.from_free || line.to_free ? line.length : direction.norm();
+    const double way = from_held && to_held ? direction.norm() : line.length;
     const double up = std::max(0.0, height_above(bed.surface, from ? b : a));
     direction = way > 1e-9 * line.length ? direction.normalized() : Vec3::UnitX();
     const Lay lay(from ? a : b, direction, way, line.length - up, from);

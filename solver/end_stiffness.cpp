@@ -4,7 +4,7 @@
 
 #include "assembly/assembler.hpp"
 #include "assembly/supports.hpp"
-#include "solver/linear/linear_solver.hpp"
+#include "solver/bordered_solver.hpp"
 
 namespace hawser {
 namespace {
@@ -28,18 +28,21 @@ std::vector<double> unit_motion(const Model& model, const State& state, const Su
 }  // namespace
 
 std::vector<EndStiffness> end_stiffness(const Model& model, const State& state) {
-  Model open = model;  // without supports the tangent keeps their rows and columns
+  Model open = model;  // without supports and hubs the tangent keeps their rows and columns
   open.supports.clear();
-  const Assembler assembler(open);
-  Tangent tangent = assembler.make_tangent();
+  open.hubs.clear();
+  const Assembler assembler(open), closed(model);
+  Tangent held = assembler.make_tangent();
   std::vector<double> residual(model.unknowns);
-  assembler.tangent(state, TangentWeights{}, TangentFloor{}, residual, tangent);
-  const BlockTridiagonal& whole = tangent.chain;
-  BlockTridiagonal held = whole;
-  for (const Support& support : model.supports) constrain(model, support, held);
-  const auto linear = make_linear_solver(LinearSolverKind::automatic);
-  linear->analyze(held);
-  const bool regular = linear->factorize(held).status == FactorStatus::ok;
+  assembler.tangent(state, TangentWeights{}, TangentFloor{}, residual, held);
+  const BlockTridiagonal whole = held.chain;
+  for (const Support& support : model.supports) constrain(model, support, held.chain);
+  held.border = make_border(model);
+  take_border(model, held.chain, held.border);
+  const auto chains = make_linear_solver(LinearSolverKind::automatic);
+  BorderedSolver linear(*chains);
+  linear.analyze(held);
+  const bool regular = linear.factorize(held).status == FactorStatus::ok;
 
   std::vector<EndStiffness> result;
   std::vector<double> force(model.dofs), answer(model.dofs);
@@ -58,8 +61,8 @@ std::vector<EndStiffness> end_stiffness(const Model& model, const State& state) 
         Eigen::Map<Vec3> stretching(&answer[r + 3]);
         stretching += Vec3::Unit(column - 3).cross(support.direction).dot(couple) * support.direction;
       }
-      for (const Support& other : model.supports) project_support(model, other, answer);
-      linear->solve(answer);
+      closed.project(answer);
+      linear.solve(answer);
       for (std::size_t i = 0; i < model.dofs; ++i) motion[i] -= answer[i];
       whole.multiply(motion, force);
       end.value.col(column).head(3) = Eigen::Map<const Vec3>(&force[r]);

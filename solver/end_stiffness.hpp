@@ -4,7 +4,8 @@
 //
 // Columns are unit displacements along x, y, z [m]; at a clamped end also unit rotations about x, y, z [rad] through the end, which
 // turn the held direction: dr' = omega x r'. Rows are the force [N] and, at a clamped end, the moment M = r' x R_r' [N m] that the support
-// must exert more. Units N/m, N, N, N m. Other ends stay where they are; drag, seabed and friction answer as their tangents say.
+// must exert more. Units N/m, N, N, N m. Other held ends stay where they are, free points move; drag, seabed and friction answer as their tangents
+// say.
 // A line without torsion takes any rotation about its own tangent without a moment but M x omega (the moment turns with the end);
 // K_end is symmetric where the loads have a potential and M = 0.
 #pragma once

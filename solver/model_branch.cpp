@@ -22,7 +22,10 @@ void follow_ends(const Model& model, int index, State& state) {
   const Line& line = model.lines[index];
   const Chain& chain = model.chain(index);
   const auto r = [&](int node) { return Eigen::Map<Vec3>(&state.q[chain.dof(node)]); };
-  Vec3 from = model.points[line.from].motion(0.0).r - r(0), to = model.points[line.to].motion(0.0).r - r(line.nodes - 1);
+  const auto way = [&](int point, int node) {  // a point where lines meet stays
+    return model.points[point].free ? Vec3(Vec3::Zero()) : Vec3(model.points[point].motion(0.0).r - r(node));
+  };
+  Vec3 from = way(line.from, 0), to = way(line.to, line.nodes - 1);
   if (line.from_free) from = to;
   if (line.to_free) to = from;
   for (int i = 0; i < line.nodes; ++i) {
@@ -47,6 +50,7 @@ std::vector<double> product_weights(const Model& model) {
   return weights;
 }
 
+/// Prescribed unknowns, and those of hub ends beyond the first one, which only repeat it.
 std::vector<char> held_unknowns(const Model& model) {
   std::vector<char> held(model.dofs, 0);
   for (const Support& support : model.supports) {
@@ -54,7 +58,29 @@ std::vector<char> held_unknowns(const Model& model) {
     if (support.position) std::fill_n(first, 3, 1);
     if (support.clamped && model.chain(support.line).block == 6) std::fill_n(first + 3, 3, 1);
   }
+  for (const Hub& hub : model.hubs)
+    for (std::size_t i = 1; i < hub.ends.size(); ++i)
+      std::fill_n(held.begin() + static_cast<std::ptrdiff_t>(model.dof(hub.ends[i].line, hub.ends[i].node)), 3, 1);
   return held;
+}
+
+/// Doubles the diagonal of an unknown and returns what it was.
+double double_diagonal(Tangent& tangent, std::size_t unknown) {
+  for (BorderEnd& end : tangent.border.ends) {
+    if (unknown < end.r || unknown >= end.r + 3) continue;
+    const auto k = static_cast<Eigen::Index>(unknown - end.r), own = static_cast<Eigen::Index>(end.r - end.window);
+    const double stiffness = end.column(own + k, k);
+    end.column(own + k, k) = end.row(k, own + k) = 2.0 * stiffness;
+    return stiffness;
+  }
+  for (const Chain& chain : tangent.chain.chains()) {
+    if (unknown < chain.first_dof || unknown >= chain.first_dof + chain.dofs()) continue;
+    const std::size_t block = static_cast<std::size_t>(chain.block), k = (unknown - chain.first_dof) % block;
+    double& diagonal = tangent.chain.D(chain, static_cast<int>((unknown - chain.first_dof) / block))[k * (block + 1)];
+    diagonal *= 2.0;
+    return 0.5 * diagonal;
+  }
+  return 0.0;
 }
 
 }  // namespace
@@ -62,6 +88,7 @@ std::vector<char> held_unknowns(const Model& model) {
 std::vector<int> layout_of(const Model& model) {
   std::vector<int> layout;
   for (const Line& line : model.lines) layout.insert(layout.end(), {static_cast<int>(line.family), line.nodes});
+  for (const Line& line : model.lines) layout.insert(layout.end(), {line.from_hub, line.to_hub});
   for (const Joint& joint : model.joints) layout.insert(layout.end(), {static_cast<int>(joint.jump), joint.element});
   return layout;
 }
@@ -98,7 +125,8 @@ ModelBranch::ModelBranch(ModelAt model_at, const Model& like, double step, const
       options_(options),
       weights_(product_weights(like)),
       held_(held_unknowns(like)),
-      linear_(make_linear_solver(LinearSolverKind::automatic)) {}
+      chains_(make_linear_solver(LinearSolverKind::automatic)),
+      linear_(*chains_) {}
 
 ModelBranch::~ModelBranch() = default;
 
@@ -116,7 +144,7 @@ bool ModelBranch::move_to(double p, std::vector<double>& q) {
   }
   if (!tangent_) {
     tangent_ = instance_->assembler.make_tangent();
-    linear_->analyze(tangent_->chain);
+    linear_.analyze(*tangent_);
   }
   State state = instance_->with(q);
   follow_supports(instance_->model, state);
@@ -170,21 +198,14 @@ bool ModelBranch::respond(std::span<const double> q, std::size_t spring, BranchR
   const State& state = instance_->with(q);
   Tangent& tangent = *tangent_;
   assembler.tangent(state, static_weights, floor_for(model, state), r, tangent);
-  double stiffness = 0.0;
-  for (const Chain& chain : tangent.chain.chains()) {
-    if (spring == no_spring || spring < chain.first_dof || spring >= chain.first_dof + chain.dofs()) continue;
-    const std::size_t block = static_cast<std::size_t>(chain.block), k = (spring - chain.first_dof) % block;
-    double& diagonal = tangent.chain.D(chain, static_cast<int>((spring - chain.first_dof) / block))[k * (block + 1)];
-    stiffness = diagonal;
-    diagonal *= 2.0;
-  }
-  if (linear_->factorize(tangent.chain).status != FactorStatus::ok) return false;
+  const double stiffness = spring == no_spring ? 0.0 : double_diagonal(tangent, spring);
+  if (linear_.factorize(tangent).status != FactorStatus::ok) return false;
   std::vector<double> rhs(model.dofs);
   const auto solve = [&](std::span<const double> load, double at_spring, std::vector<double>& answer) {
     answer.resize(model.unknowns);
     assembler.reduce(tangent, load, rhs);
     if (spring != no_spring) rhs[spring] += at_spring;
-    linear_->solve(rhs);
+    linear_.solve(rhs);
     assembler.expand(tangent, rhs, answer);
   };
   solve(r, 0.0, response.residual);

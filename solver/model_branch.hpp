@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "assembly/assembler.hpp"
+#include "solver/bordered_solver.hpp"
 #include "solver/continuation.hpp"
-#include "solver/linear/linear_solver.hpp"
 #include "solver/statics.hpp"
 
 namespace hawser {
@@ -60,8 +60,9 @@ class ModelBranch final : public BranchSystem {
   double step_;
   StaticOptions options_;
   std::vector<double> weights_;  // of the product; 0 for inner unknowns
-  std::vector<char> held_;       // prescribed unknowns
-  std::unique_ptr<LinearSolver> linear_;
+  std::vector<char> held_;       // unknowns that are prescribed, or repeat those of another line end
+  std::unique_ptr<LinearSolver> chains_;
+  BorderedSolver linear_;
   std::unique_ptr<Instance> instance_;
   std::optional<Tangent> tangent_;
 };

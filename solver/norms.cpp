@@ -75,10 +75,17 @@ double largest_nodal_load(const Model& model) {
   return largest;
 }
 
-double reference_force(const Model& model, std::span<const double> unprojected) {
-  double largest = largest_nodal_load(model);
-  for (const Support& support : model.supports) largest = std::max(largest, ConstVec3(&unprojected[model.dof(support.line, support.node)]).norm());
+double largest_end_force(const Model& model, std::span<const double> unprojected) {
+  double largest = 0.0;
+  const auto count = [&](const Support& end) { largest = std::max(largest, ConstVec3(&unprojected[model.dof(end.line, end.node)]).norm()); };
+  for (const Support& support : model.supports) count(support);
+  for (const Hub& hub : model.hubs)
+    for (const Support& end : hub.ends) count(end);
   return largest;
+}
+
+double reference_force(const Model& model, std::span<const double> unprojected) {
+  return std::max(largest_nodal_load(model), largest_end_force(model, unprojected));
 }
 
 double roundoff_force(const Model& model, const State& state) {

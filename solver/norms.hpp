@@ -33,8 +33,10 @@ struct WorstNode {
 };
 WorstNode worst_node(const Model& model, std::span<const double> r);
 
-/// Reference force [N] of the stopping criterion: the largest |R_r| of the residual BEFORE projection, which at a support
-/// is its reaction and therefore the line tension there, and not less than the largest nodal load at t = 0.
+/// The largest |R_r| [N] at a support or a hub of the residual BEFORE projection: there it is the tension of the line.
+double largest_end_force(const Model& model, std::span<const double> unprojected);
+
+/// Reference force [N] of the stopping criterion: the largest end force, and not less than the largest nodal load at t = 0.
 /// The tension is the better measure: nodal loads w l shrink with the mesh while the round-off grows like 1/l.
 double reference_force(const Model& model, std::span<const double> unprojected);
 

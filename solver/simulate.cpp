@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/norms.hpp"
+#include "solver/static_failure.hpp"
 #include "solver/time/generalized_alpha.hpp"
 #include "solver/time/line_system.hpp"
 #include "solver/time/step_control.hpp"
@@ -112,6 +113,8 @@ void Run::fail(const StepReport& step, const std::string& what) {
       failure.s = model.lines[i].s[(step.worst - chain.first_dof) / chain.block];
     }
   }
+  const std::string point = meeting_point(model, step.worst);
+  if (!point.empty()) failure.what += fmt::format(" (worst at the point \"{}\")", point);
   switch (step.status) {
     case StepStatus::singular:
       failure.cause = "the linear system has no usable factorization there: a part without mass, or a slack or compressed part";

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "assembly/assembler.hpp"
-#include "solver/linear/linear_solver.hpp"
+#include "solver/bordered_solver.hpp"
 #include "solver/static_system.hpp"
 
 namespace hawser {
@@ -48,27 +48,30 @@ class Pencil {
       : elastic_(elastic_part(model)), assembler_(elastic_), tangent_(assembler_.make_tangent()), mass_(mode_mass(model)) {
     std::vector<double> r(model.unknowns);
     assembler_.tangent(state, TangentWeights{}, TangentFloor{}, r, tangent_);
-    tangent_.chain.symmetrize();
-    shifted_ = tangent_.chain;
+    tangent_.symmetrize();
+    shifted_ = tangent_;
+    chain_mass_ = mass_;
+    for (const BorderEnd& end : tangent_.border.ends) std::fill_n(&chain_mass_[end.r], 3, 0.0);
   }
 
   int below(double sigma) {
     shift(sigma);
-    return inertia_of_symmetric_part(shifted_).negative + tangent_.negative_inner_pivots();
+    return inertia_of_symmetric_part(shifted_.chain).negative + tangent_.negative_inner_pivots() + negative_hub_pivots(shifted_);
   }
 
   /// Inverse iteration with K - sigma M; returns the Rayleigh quotient and the mode over all unknowns. Nothing where it cannot be factorized.
   std::optional<double> iterate(double sigma, std::vector<double>& mode) {
     shift(sigma);
-    const auto linear = make_linear_solver(LinearSolverKind::automatic);
-    linear->analyze(shifted_);
-    if (linear->factorize(shifted_).status != FactorStatus::ok) return std::nullopt;
+    const auto chains = make_linear_solver(LinearSolverKind::automatic);
+    BorderedSolver linear(*chains);
+    linear.analyze(shifted_);
+    if (linear.factorize(shifted_).status != FactorStatus::ok) return std::nullopt;
     std::vector<double> x(mass_.size()), kx(mass_.size());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = mass_[i] * (1.0 + 0.5 * std::sin(1.7 * static_cast<double>(i)));  // no symmetry of its own
     double quotient = 0.0;
     for (int k = 0; k < inverse_iterations; ++k) {
-      linear->solve(x);
-      tangent_.chain.multiply(x, kx);
+      linear.solve(x);
+      multiply(tangent_, x, kx);
       double energy = 0.0, size = 0.0;
       for (std::size_t i = 0; i < x.size(); ++i) {
         if (mass_[i] > 0.0) energy += x[i] * kx[i];
@@ -85,11 +88,16 @@ class Pencil {
 
  private:
   void shift(double sigma) {
-    shifted_ = tangent_.chain;
-    for (const Chain& chain : shifted_.chains())
+    shifted_ = tangent_;
+    for (const Chain& chain : shifted_.chain.chains())
       for (int i = 0; i < chain.nodes; ++i)
         for (int k = 0; k < chain.block; ++k)
-          shifted_.D(chain, i)[k * (chain.block + 1)] -= sigma * mass_[chain.dof(i) + static_cast<std::size_t>(k)];
+          shifted_.chain.D(chain, i)[k * (chain.block + 1)] -= sigma * chain_mass_[chain.dof(i) + static_cast<std::size_t>(k)];
+    for (BorderEnd& end : shifted_.border.ends)
+      for (int k = 0; k < 3; ++k) {
+        const auto own = static_cast<Eigen::Index>(end.r - end.window) + k;
+        end.column(own, k) = end.row(k, own) = end.column(own, k) - sigma * mass_[end.r + static_cast<std::size_t>(k)];
+      }
   }
 
   const Tangent& with_no_residual() {
@@ -102,8 +110,8 @@ class Pencil {
   Model elastic_;
   Assembler assembler_;
   Tangent tangent_;
-  BlockTridiagonal shifted_;
-  std::vector<double> mass_;
+  Tangent shifted_;
+  std::vector<double> mass_, chain_mass_;  // of the chains with the ends at hubs held
 };
 
 /// Scales the mode to 1 m at its largest displacement and says where that is.

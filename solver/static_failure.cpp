@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 #include "solver/static_start_loads.hpp"
 
 namespace hawser {
@@ -12,7 +15,22 @@ bool shapeless(const Model& model, int index) {
   const Line& line = model.lines[index];
   if (load_scale(model, index) > 0.0) return false;
   if (line.from_free || line.to_free) return true;
+  if (line.from_hub >= 0 || line.to_hub >= 0) return false;  // what meets it there may stretch it
   return (model.points[line.to].motion(0.0).r - model.points[line.from].motion(0.0).r).norm() <= line.length;
+}
+
+/// Points that are held themselves or joined by lines to one that is.
+std::vector<char> held_points(const Model& model) {
+  std::vector<char> held;
+  for (const ModelPoint& point : model.points) held.push_back(!point.free);
+  for (bool more = true; more;) {
+    more = false;
+    for (const Line& line : model.lines) {
+      if (held[line.from] == held[line.to]) continue;
+      held[line.from] = held[line.to] = more = true;
+    }
+  }
+  return held;
 }
 
 bool clamped(const Model& model, int line) {
@@ -23,13 +41,22 @@ bool clamped(const Model& model, int line) {
 
 }  // namespace
 
+std::string meeting_point(const Model& model, std::size_t unknown) {
+  for (const Hub& hub : model.hubs)
+    for (const Support& end : hub.ends)
+      if (const std::size_t r = model.dof(end.line, end.node); r <= unknown && unknown < r + 3) return model.points[hub.point].name;
+  return "";
+}
+
 std::optional<Failure> refuse(const Model& model) {
+  const std::vector<char> held = held_points(model);
   for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
     const Line& line = model.lines[index];
-    if (line.from_free && line.to_free)
+    if (!held[line.from])
       return Failure{"no static equilibrium: nothing holds the line", line.name, 0.0,
-                     fmt::format("both its ends, \"{}\" and \"{}\", are free", model.points[line.from].name, model.points[line.to].name),
-                     "fix or move one of the two points, or run it in time with start = \"straight\""};
+                     fmt::format("its ends \"{}\" and \"{}\" are free, and so is every point that it is joined to by other lines",
+                                 model.points[line.from].name, model.points[line.to].name),
+                     "fix or move one of these points, or run it in time with start = \"straight\""};
     if (shapeless(model, index) && !clamped(model, index))
       return Failure{"no static equilibrium can be told from any other: the line is slack and carries no load", line.name, 0.0,
                      "no weight in water, no current or tow with drag, no force on it, and it is not stretched between its ends",
@@ -57,8 +84,12 @@ Failure explain_failure(const Model& model, const State& state, const StaticSyst
   failure.what =
       fmt::format("static equilibrium not found: residual {:.3g} N is {:.1e} of {:.4g} N after {} factorizations, largest in the {}", newton.residual,
                   report.residual, report.reference_force, report.iterations, worst.slope ? "slope equation" : "force balance");
+  const std::string point = meeting_point(model, model.dof(worst.line, worst.node));
+  if (!point.empty() && !worst.slope) failure.what += fmt::format(" of the point \"{}\"", point);
   if (system.factor_report().status != FactorStatus::ok && newton.status == NewtonStatus::no_increment) {
     failure.cause = fmt::format("the tangent could not be factorized by {}: {}", report.linear_solver, system.factor_report().message);
+    const std::string loose = meeting_point(model, system.factor_report().failed_unknown);
+    if (!loose.empty()) failure.cause += fmt::format(" (point \"{}\")", loose);
     failure.remedy = system.factor_report().status == FactorStatus::not_applicable
                          ? "use linear_solver = \"chain\", which takes unsymmetric and indefinite tangents"
                          : "look for a part of the line that carries neither load nor tension; give its line type a weight or an EI";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "solver/static_system.hpp"
 #include "solver/statics.hpp"
@@ -10,6 +11,9 @@ namespace hawser {
 
 /// A model that has no static equilibrium to look for: a line that nothing holds, a slack line without any load.
 std::optional<Failure> refuse(const Model& model);
+
+/// Name of the free point at which lines meet whose position is at this unknown; empty where there is none.
+std::string meeting_point(const Model& model, std::size_t unknown);
 
 /// Why the last stage was not accepted.
 Failure explain_failure(const Model& model, const State& state, const StaticSystem& system, const NewtonReport& newton, const StaticReport& report);

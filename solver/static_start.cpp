@@ -4,6 +4,7 @@
 
 #include "solver/static_start_bed.hpp"
 #include "solver/static_start_catenary.hpp"
+#include "solver/static_start_hubs.hpp"
 #include "solver/static_start_loads.hpp"
 #include "solver/static_start_march.hpp"
 #include "solver/static_start_shape.hpp"
@@ -143,23 +144,27 @@ LineShape catenary_shape(const Model& model, int index, const Vec3& from, const 
   return shape;
 }
 
-namespace {
-
-LineShape start_of_line(const Model& model, int index, StaticStart start) {
+LineShape guessed_shape(const Model& model, int index, const Vec3& from, const Vec3& to) {
   const Line& line = model.lines[index];
-  const Vec3 from = model.points[line.from].motion(0.0).r, to = model.points[line.to].motion(0.0).r;
   const bool held = !line.from_free && !line.to_free;
-  if (start == StaticStart::straight || (line.from_free && line.to_free)) {
-    const Vec3 chord = to - from;
-    const Vec3 direction = chord.isZero(0.0) ? Vec3(-Vec3::UnitZ()) : chord.normalized();
-    const bool hang_back = line.from_free && !line.to_free;
-    return straight_shape(line, hang_back ? Vec3(to - line.length * direction) : from, direction, held ? chord.norm() / line.length : 1.0);
-  }
   LineShape shape = held ? catenary_shape(model, index, from, to) : march_from_free_end(model, index, line.from_free ? to : from);
   if (!reaches_bed(model, shape)) return shape;
   if (const auto laid = laid_shape(model, index, from, to)) return *laid;
   lift_onto_bed(model, shape);
   return shape;
+}
+
+namespace {
+
+LineShape start_of_line(const Model& model, int index, StaticStart start, const Vec3& from, const Vec3& to) {
+  const Line& line = model.lines[index];
+  const bool held = !line.from_free && !line.to_free;
+  const Vec3 chord = to - from;
+  const bool straight = start == StaticStart::straight && !(held && chord.norm() <= 1e-9 * line.length);
+  if (!straight && !(line.from_free && line.to_free)) return guessed_shape(model, index, from, to);
+  const Vec3 direction = chord.isZero(0.0) ? Vec3(-Vec3::UnitZ()) : chord.normalized();
+  const bool hang_back = line.from_free && !line.to_free;
+  return straight_shape(line, hang_back ? Vec3(to - line.length * direction) : from, direction, held ? chord.norm() / line.length : 1.0);
 }
 
 /// Ends where they are held, clamps along their direction, the whole system in the velocity of the tow.
@@ -176,7 +181,11 @@ void apply_supports(const Model& model, State& state) {
 
 State static_start(const Model& model, StaticStart start) {
   State state = model.make_state();
-  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) write_shape(model, line, start_of_line(model, line, start), state);
+  std::vector<Vec3> at;
+  for (const ModelPoint& point : model.points) at.push_back(point.motion(0.0).r);
+  if (start != StaticStart::straight && !model.hubs.empty()) at = balanced_positions(model);
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line)
+    write_shape(model, line, start_of_line(model, line, start, at[model.lines[line].from], at[model.lines[line].to]), state);
   apply_supports(model, state);
   return state;
 }

@@ -101,6 +101,9 @@ class LaidLine {
     if (!held_[lower_]) lower_ = 1 - lower_;
     if (bed.laid[index] != Laid::nowhere) {
       lower_ = bed.laid[index] == Laid::from_start ? 0 : 1;
+    }
+    // A line that ends where others meet was laid towards a guess of that point: it starts straight towards where the point is now.
+    if (bed.laid[index] != Laid::nowhere && line_.from_hub < 0 && line_.to_hub < 0) {
       for (int i = 0; i < line_.nodes; ++i) way_.push_back((bed.lay[line_.first_node + i] - ends_[0]).dot(forward_));
       const Vec3 first = bed.lay_slope[line_.first_node + (lower_ == 0 ? 0 : line_.nodes - 1)];
       bent_ = first.head<2>().normalized().dot(forward_.head<2>()) < 1.0 - 1e-9;

@@ -25,6 +25,9 @@ LineShape straight_shape(const Line& line, const Vec3& r0, const Vec3& direction
 /// Elastic catenary between two held ends, drag included as a load per element, from the shape of the pass before.
 LineShape catenary_shape(const Model& model, int line, const Vec3& from, const Vec3& to);
 
+/// Between these ends: catenary, on the bed where it would pass below it; with a free end from there to the other end.
+LineShape guessed_shape(const Model& model, int line, const Vec3& from, const Vec3& to);
+
 /// Through the rows of a table of positions (Hermite, slopes of unit length along it).
 LineShape table_shape(const Line& line, const ShapeTable& table);
 

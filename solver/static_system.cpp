@@ -36,7 +36,7 @@ StaticSystem::StaticSystem(const Assembler& assembler, LinearSolver& linear, dou
       r_(model_.unknowns),
       rhs_(model_.dofs),
       d_(model_.unknowns) {
-  linear_.analyze(tangent_.chain);
+  linear_.analyze(tangent_);
   const std::vector<double>& least = model_.element.minimum_tension;
   least_kept_ = *std::max_element(least.begin(), least.end());
 }
@@ -64,13 +64,13 @@ bool StaticSystem::solve(double floor) {
 
 FactorReport StaticSystem::factorize_and_solve(TangentPanels& panels) {
   if (!modified_) {
-    const FactorReport report = linear_.factorize_and_solve(panels, rhs_);
+    const FactorReport report = linear_.factorize_and_solve(panels, tangent_, rhs_);
     if (report.status != FactorStatus::not_applicable) return report;
   }
   modified_ = true;
   panels.whole();
-  tangent_.chain.symmetrize();
-  const FactorReport report = linear_.factorize(tangent_.chain);
+  tangent_.symmetrize();
+  const FactorReport report = linear_.factorize(tangent_);
   if (report.status == FactorStatus::ok) linear_.solve(rhs_);
   return report;
 }
@@ -88,7 +88,8 @@ bool free_of_compression(const Model& model, const State& state, double roundoff
       EI = std::min(EI, model.element.EI[e]);
     }
     const bool clamped = std::any_of(model.supports.begin(), model.supports.end(), [&](const Support& s) { return s.line == index && s.clamped; });
-    const double euler = clamped ? EI * std::pow(std::numbers::pi / (2.0 * line.length), 2) : 0.0;
+    const bool alone = line.from_hub < 0 && line.to_hub < 0;  // at a hub other lines may push sideways
+    const double euler = clamped && alone ? EI * std::pow(std::numbers::pi / (2.0 * line.length), 2) : 0.0;
     if (observe_line(model, state, index).least_strain_tension < -std::max(neutral + roundoff, euler)) return false;
   }
   return true;
@@ -113,7 +114,7 @@ int negative_pivots_of_elastic_tangent(const Model& model, const State& state) {
   Tangent tangent = assembler.make_tangent();
   std::vector<double> r(elastic.unknowns);
   assembler.tangent(state, static_weights, TangentFloor{}, r, tangent);
-  return inertia_of_symmetric_part(tangent.chain).negative + tangent.negative_inner_pivots();
+  return inertia_of_symmetric_part(tangent.chain).negative + tangent.negative_inner_pivots() + negative_hub_pivots(tangent);
 }
 
 }  // namespace hawser

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "assembly/assembler.hpp"
-#include "solver/linear/linear_solver.hpp"
+#include "solver/bordered_solver.hpp"
 #include "solver/newton.hpp"
 
 namespace hawser {
@@ -37,7 +37,7 @@ class StaticSystem : public NewtonSystem {
 
   const Assembler& assembler_;
   const Model& model_;
-  LinearSolver& linear_;
+  BorderedSolver linear_;
   State& state_;
   double relative_tolerance_;
   double exact_below_;

@@ -33,9 +33,16 @@ int joints_of(const Model& model, int line) {
   return static_cast<int>(std::count_if(model.joints.begin(), model.joints.end(), [line](const Joint& joint) { return joint.line == line; }));
 }
 
+/// How many line ends meet at a free point; 0 where that is not more than one.
+std::size_t ends_meeting(const Model& model, int point) {
+  const auto hub = std::find_if(model.hubs.begin(), model.hubs.end(), [point](const Hub& h) { return h.point == point; });
+  return hub == model.hubs.end() ? 0 : hub->ends.size();
+}
+
 std::string describe(const Model& model, int point) {
   const ModelPoint& p = model.points[static_cast<std::size_t>(point)];
-  const char* kind = p.free ? "free" : p.motion.moves() ? "moved" : "fixed";
+  const std::size_t ends = ends_meeting(model, point);
+  const std::string kind = ends > 0 ? fmt::format("free, {} line ends meet,", ends) : p.free ? "free" : p.motion.moves() ? "moved" : "fixed";
   return fmt::format("{} ({} {:.6g}, {:.6g}, {:.6g})", p.name, kind, p.position.x(), p.position.y(), p.position.z());
 }
 
@@ -63,6 +70,8 @@ Json check_document(const Scene& scene, const Model& model, const std::vector<st
   Json json = {{"title", scene.title}, {"lines", Json::object()}};
   for (int i = 0; i < static_cast<int>(model.lines.size()); ++i)
     json["lines"][model.lines[static_cast<std::size_t>(i)].name] = line_json(scene, model, i);
+  json["meeting_points"] = Json::object();
+  for (const Hub& hub : model.hubs) json["meeting_points"][model.points[static_cast<std::size_t>(hub.point)].name] = hub.ends.size();
   json["unknowns"] = model.unknowns;
   json["elements"] = model.total_elements();
   json["linear_solver"] = scene.solve.linear_solver;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace hawser {
 namespace {
@@ -78,10 +79,6 @@ class StructureCheck {
 
   void line_ends(const LineSpec& line) {
     const PointSpec *from = find_point(scene_, line.from), *to = find_point(scene_, line.to);
-    if (from && to && from->free && to->free) {
-      document_.error({"lines", line.name, "to"}, fmt::format("line `{}` is free at both ends: this is not built yet", line.name), "not built yet",
-                      {"fix one of the two points"});
-    }
     for (const auto& [key, end, point] : {std::tuple{"from_end", line.from_end, from}, std::tuple{"to_end", line.to_end, to}}) {
       if (!end.clamped) continue;
       const KeyPath place{"lines", line.name, key};
@@ -117,19 +114,11 @@ class StructureCheck {
     }
   }
 
-  /// A free point is the end of exactly one line.
   void point_use() {
-    std::map<std::string, int> uses;
-    for (const LineSpec& line : scene_.lines) {
-      for (const auto& [key, name] : {std::pair{"from", line.from}, std::pair{"to", line.to}}) {
-        const PointSpec* point = find_point(scene_, name);
-        if (++uses[name] == 2 && point && point->free) {
-          document_.error({"lines", line.name, key}, fmt::format("lines meeting at a free point (`{}`) are not built yet", name), "not built yet");
-        }
-      }
-    }
+    std::set<std::string> used;
+    for (const LineSpec& line : scene_.lines) used.insert({line.from, line.to});
     for (const PointSpec& point : scene_.points) {
-      if (unknown_ends_ || uses.count(point.name) > 0) continue;
+      if (unknown_ends_ || used.count(point.name) > 0) continue;
       const KeyPath place{"points", point.name};
       if (point.free) document_.error(place, fmt::format("no line ends at the free point `{}`", point.name), "nothing holds it");
       if (!point.free && !scene_.lines.empty()) document_.warn(place, fmt::format("no line ends at point `{}`", point.name), "unused");
@@ -232,6 +221,7 @@ void check_structure(const Scene& scene, Document& document) { StructureCheck(sc
 void check_scene(const Scene& scene, Document& document) {
   if (document.full()) return;
   check_structure(scene, document);
+  check_network(scene, document);
   check_motion(scene, document);
 }
 

@@ -10,11 +10,8 @@
 namespace hawser {
 namespace {
 
-constexpr double largest_strain = 0.5;       // at t = 0, between held ends
 constexpr double straight_tolerance = 1e-6;  // of the length: chord of an unstrained start
 constexpr double deep_below_bed = 1.0;       // m: no end of a line is meant to be there
-
-Vec3 place_at_start(const PointSpec& point) { return Motion(point.position, point.motion)(0.0).r; }
 
 class MotionCheck {
  public:
@@ -23,7 +20,7 @@ class MotionCheck {
   void run() {
     for (const LineSpec& line : scene_.lines) {
       const PointSpec *from = find_point(scene_, line.from), *to = find_point(scene_, line.to);
-      if (from == nullptr || to == nullptr || (from->free && to->free)) continue;
+      if (from == nullptr || to == nullptr) continue;
       if (!from->free && !to->free) strain(line, *from, *to);
       if (scene_.dynamics && scene_.dynamics->start == StartChoice::straight) straight_start(line, *from, *to);
       if (bed_) seabed(line, *from, *to);
@@ -49,11 +46,18 @@ class MotionCheck {
     const KeyPath place{"dynamics", "start"};
     if (chord == 0.0) {
       document_.error(place, fmt::format("a straight start of line `{}` has no direction: its ends are at one place", line.name));
-    } else if (!to.free && std::abs(chord - length) > straight_tolerance * length) {
-      document_.error(place,
-                      fmt::format("a straight start of line `{}` needs a free `to` end, or a length equal to the distance of its ends", line.name),
-                      fmt::format("length {:.9g} m, distance {:.9g} m", length, chord));
+    } else if (!(to.free && ends_at(to) == 1) && std::abs(chord - length) > straight_tolerance * length) {
+      document_.error(
+          place,
+          fmt::format("a straight start of line `{}` needs a free `to` end of its own, or a length equal to the distance of its ends", line.name),
+          fmt::format("length {:.9g} m, distance {:.9g} m", length, chord));
     }
+  }
+
+  long ends_at(const PointSpec& point) const {
+    long ends = 0;
+    for (const LineSpec& line : scene_.lines) ends += (line.from == point.name) + (line.to == point.name);
+    return ends;
   }
 
   bool rests_on_bed(const PointSpec& end, double diameter, double length) const {
@@ -130,6 +134,8 @@ class MotionCheck {
 };
 
 }  // namespace
+
+Vec3 place_at_start(const PointSpec& point) { return Motion(point.position, point.motion)(0.0).r; }
 
 void check_motion(const Scene& scene, Document& document) { MotionCheck(scene, document).run(); }
 

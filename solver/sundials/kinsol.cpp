@@ -30,7 +30,7 @@ constexpr int most_rounds = 3;            // of one stage
 struct Problem {
   Problem(const Assembler& a, LinearSolver& l, State& s)
       : assembler(a), linear(l), state(s), tangent(a.make_tangent()), r(a.model().unknowns), rhs(a.model().dofs) {
-    linear.analyze(tangent.chain);
+    linear.analyze(tangent);
     const std::vector<double>& least = a.model().element.minimum_tension;
     least_kept = *std::max_element(least.begin(), least.end());
   }
@@ -47,7 +47,7 @@ struct Problem {
     const bool compressed = least_strain_tension(assembler.model(), state).value < -10.0 * least_kept;
     assembler.tangent(state, TangentWeights{}, {0.0, !compressed, false}, r, tangent);
     ++factorizations;
-    report = linear.factorize(tangent.chain);
+    report = linear.factorize(tangent);
     return report.status == FactorStatus::ok;
   }
 
@@ -60,7 +60,7 @@ struct Problem {
   }
 
   const Assembler& assembler;
-  LinearSolver& linear;
+  BorderedSolver linear;
   State& state;
   Tangent tangent;
   std::vector<double> r, rhs;
@@ -230,7 +230,7 @@ Failure explain(const Problem& problem, const StaticReport& report, int flag) {
   failure.line = model.lines[static_cast<std::size_t>(worst.line)].name;
   failure.s = model.lines[static_cast<std::size_t>(worst.line)].s[static_cast<std::size_t>(worst.node)];
   const bool factorized = problem.report.status == FactorStatus::ok;
-  failure.cause = !factorized ? fmt::format("the tangent could not be factorized by {}: {}", problem.linear.name(), problem.report.message)
+  failure.cause = !factorized ? fmt::format("the tangent could not be factorized by {}: {}", report.linear_solver, problem.report.message)
                   : problem.message.empty() ? "the line search found no way on"
                                             : problem.message;
   failure.remedy = "use --method newton, which starts in stages, or --start catenary";

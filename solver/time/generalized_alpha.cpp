@@ -64,7 +64,7 @@ GeneralizedAlpha::GeneralizedAlpha(const System& system, LinearSolver& solver, c
   trial_.q.resize(system.unknowns());
   trial_.v.resize(system.unknowns());
   trial_.a.resize(system.unknowns());
-  solver_.analyze(tangent_.chain);
+  solver_.analyze(tangent_);
 }
 
 StepReport GeneralizedAlpha::start(State& state) {
@@ -254,8 +254,8 @@ StepStatus GeneralizedAlpha::linearize(const TangentWeights& weights, const Tang
   ++report.residuals;
   ++report.factorizations;
   if (factors.status == FactorStatus::not_applicable) {
-    tangent_.chain.symmetrize();
-    factors = solver_.factorize(tangent_.chain);
+    tangent_.symmetrize();
+    factors = solver_.factorize(tangent_);
     if (factors.status == FactorStatus::ok) {
       solver_.solve(condensed_);
     }

@@ -17,7 +17,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/linear/linear_solver.hpp"
+#include "solver/bordered_solver.hpp"
 #include "solver/time/system.hpp"
 
 namespace hawser {
@@ -104,7 +104,7 @@ class GeneralizedAlpha {
   void accept(State& state, double h);
 
   const System& system_;
-  LinearSolver& solver_;
+  BorderedSolver solver_;
   StepOptions options_;
   AlphaCoefficients alpha_;
   double tolerance_;

@@ -40,13 +40,7 @@ IncrementMeasure LineSystem::measure_increment(std::span<const double> d) const 
   return {size.scaled, turn};
 }
 
-double LineSystem::reference_force(std::span<const double> r) const {
-  double largest = nodal_load_;
-  for (const Support& support : model_.supports) {
-    largest = std::max(largest, Eigen::Map<const Vec3>(&r[model_.dof(support.line, support.node)]).norm());
-  }
-  return largest;
-}
+double LineSystem::reference_force(std::span<const double> r) const { return std::max(nodal_load_, largest_end_force(model_, r)); }
 
 double LineSystem::roundoff_floor(const State& state) const { return roundoff_force(model_, state); }
 

@@ -21,10 +21,10 @@ class LineSystem : public System {
   void tangent(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r, Tangent& t) const override {
     assembler_.tangent(state, weights, floor, r, t);
   }
-  FactorReport linearize(const State& state, const TangentWeights& weights, const TangentFloor& floor, LinearSolver& solver, std::span<double> r,
+  FactorReport linearize(const State& state, const TangentWeights& weights, const TangentFloor& floor, BorderedSolver& solver, std::span<double> r,
                          Tangent& t, std::span<double> x) const override {
     TangentPanels panels = assembler_.tangent_panels(state, weights, floor, r, t, x);
-    return solver.factorize_and_solve(panels, x);
+    return solver.factorize_and_solve(panels, t, x);
   }
   void reduce(Tangent& t, std::span<const double> r, std::span<double> rhs) const override { assembler_.reduce(t, r, rhs); }
   void expand(const Tangent& t, std::span<const double> x, std::span<double> d) const override { assembler_.expand(t, x, d); }

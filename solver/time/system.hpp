@@ -11,7 +11,7 @@
 
 #include "assembly/assembler.hpp"
 #include "assembly/state.hpp"
-#include "solver/linear/linear_solver.hpp"
+#include "solver/bordered_solver.hpp"
 
 namespace hawser {
 
@@ -41,7 +41,7 @@ class System {
 
   /// Residual, tangent, its factors and x, the solution of T x = -R: tangent, reduce, factorize and solve. Where the solver refuses the matrix
   /// (not_applicable) it is in t, and x is -R.
-  virtual FactorReport linearize(const State& state, const TangentWeights& weights, const TangentFloor& floor, LinearSolver& solver,
+  virtual FactorReport linearize(const State& state, const TangentWeights& weights, const TangentFloor& floor, BorderedSolver& solver,
                                  std::span<double> r, Tangent& t, std::span<double> x) const;
 
   virtual void expand(const Tangent& t, std::span<const double> x, std::span<double> d) const = 0;

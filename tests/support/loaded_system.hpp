@@ -37,7 +37,7 @@ class LoadedSystem : public LineSystem {
     add_block(t.chain.D(chain, last), weights.damping * end_dashpot * Eigen::Vector2d(1.0, 0.0).asDiagonal().toDenseMatrix(), last, last);
   }
 
-  FactorReport linearize(const State& state, const TangentWeights& weights, const TangentFloor& floor, LinearSolver& solver, std::span<double> r,
+  FactorReport linearize(const State& state, const TangentWeights& weights, const TangentFloor& floor, BorderedSolver& solver, std::span<double> r,
                          Tangent& t, std::span<double> x) const override {
     return System::linearize(state, weights, floor, solver, r, t, x);
   }

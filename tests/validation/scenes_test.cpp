@@ -119,6 +119,25 @@ const Expected expected[] = {
        EXPECT_NEAR(o.at(60.0).tension_to, o.at(40.0).tension_to, 1e-2 * o.at_rest.tension_to);  // periodic after the ramp
        EXPECT_GT(o.at(40.0).tension_to - o.at(50.0).tension_to, 1e5);                           // N: lifted and laid down again
      }},
+    {"three-leg-mooring",
+     [](const Outcome& o) {
+       // V = 152003.075 N is a third of the net buoyancy whatever the bed. On a rigid one a = V/w = 139.777738 m are suspended and
+       //   420 m = (450 m - a) (1 + H/EA) + H/w asinh(V/H) + H a/EA     gives H = 96586.7278 N,
+       // and the buoy floats (sqrt(H^2 + V^2) - H)/w + V^2/(2 w EA) = 76.812689 m above the bed. The bed of the scene yields by 14 mm: to H it
+       // adds as in mooring-chain 1e-4 (11 N), to the height about as much as it yields.
+       EXPECT_NEAR(o.at_rest.tension_from, 96586.7278, 3e-4 * 96587.0);
+       EXPECT_NEAR(o.at_rest.tension_to, 180094.2276, 1e-5 * 180094.0);
+       EXPECT_NEAR(o.at_rest.force_to.z(), -152003.075, 1e-8 * 152003.0);
+       EXPECT_NEAR(o.at(0.0).to[2], -120.0 + 76.812689, 0.014);
+       EXPECT_LT(o.at(0.0).to.head<2>().norm(), 1e-8);
+       double farthest = 0.0;
+       for (const Instant& i : o.history) {
+         EXPECT_LT(std::abs(i.to[1]), 1e-6);  // pushed along the plane of symmetry
+         farthest = std::max(farthest, i.to[0]);
+       }
+       EXPECT_GT(farthest, 15.0);
+       EXPECT_LT(std::abs(o.at(90.0).to[0]), 0.02 * farthest);  // the water takes the motion away
+     }},
     {"vehicle-on-tether",
      [](const Outcome& o) {
        EXPECT_NEAR(o.at(0.0).tension_from, o.at_rest.tension_from, 1e-7 * o.at_rest.tension_from);  // the run starts in its equilibrium

@@ -206,6 +206,22 @@ TEST_F(Cli, CheckWarnsOfAStretchedLineAndOfUnusedBendingStiffness) {
   EXPECT_NE(text.find("EI is not used"), std::string::npos) << text;
 }
 
+TEST_F(Cli, LinesThatMeetAreCheckedSolvedVariedAndRun) {
+  const std::string other =
+      "[points.other]\nposition = [40.0, 0.0, 0.0]\n[lines.b]\nfrom = \"end\"\nto = \"other\"\n"
+      "sections = [{ type = \"rope\", length = 110.0, elements = 10 }]\n[dynamics]";
+  write("scene.toml", with(small_scene, "[dynamics]", other));
+  EXPECT_EQ(hawser("check scene.toml --json").json().at("meeting_points").at("end"), 2);
+  EXPECT_NE(hawser("check scene.toml").out.find("2 line ends meet"), std::string::npos);
+  const nlohmann::json document = hawser("static scene.toml --json --out first").json();
+  EXPECT_NEAR(document.at("points").at("end").at("force").at(2), 100.0 * 9.80665, 1e-6);  // both lines carry the body
+  EXPECT_EQ(document.at("lines").at("b").at("stiffness_to").size(), 3u);
+  EXPECT_FALSE(document.at("lines").at("b").contains("stiffness_from"));
+  EXPECT_EQ(hawser("static scene.toml --json --from first/result.h5").json().at("iterations"), 1);
+  EXPECT_EQ(hawser("static scene.toml --vary points.other.position.0=30:60:4").code, 0);  // every value has its equilibrium
+  EXPECT_EQ(hawser("run scene.toml --out results").code, 0);
+}
+
 /// Starts the program and waits until it has written some rows; returns its process.
 pid_t start_long_run(const std::filesystem::path& folder) {
   const pid_t child = fork();

@@ -115,6 +115,20 @@ const Fault meaning[] = {
      "[points.lost]\nfree = true\nposition = [1, 1, 1]\n[lines.a]",
      ":14:1",
      {"no line ends at the free point `lost`"}},
+    {"NothingHoldsALine", "[points.end]", "free = true\n[points.end]", ":17:6", {"nothing holds line `a`: all points there are free"}},
+    {"NothingHoldsAPart",
+     "[dynamics]",
+     "[points.p]\nfree = true\nposition = [1, 0, 0]\n[points.q]\nfree = true\nposition = [2, 0, 0]\n"
+     "[lines.b]\nfrom = \"p\"\nto = \"q\"\nsections = [{ type = \"rope\", length = 1.0, elements = 1 }]\n"
+     "[lines.c]\nfrom = \"q\"\nto = \"p\"\nsections = [{ type = \"rope\", length = 2.0, elements = 1 }]\n[dynamics]",
+     ":26:6",
+     {"nothing holds lines `b`, `c`", "joined to no held point"}},
+    {"TooShortTogether",
+     "[dynamics]",
+     "[points.far]\nposition = [0, 0, -400]\n"
+     "[lines.b]\nfrom = \"end\"\nto = \"far\"\nsections = [{ type = \"rope\", length = 100.0, elements = 10 }]\n[dynamics]",
+     ":17:12",
+     {"lines `a`, `b` are too short together: they would have to stretch 100 %", "`top` and `far` are 400 m apart"}},
     {"MasslessDynamics", "mass = 2.5", "mass = 0.0", ":6:8", {"a scene with [dynamics] needs line types with mass > 0"}},
     {"ElementTotal",
      "elements = 10 }",
@@ -204,12 +218,6 @@ const Fault later[] = {
      {"torsion (`lines.a.from_end.twist`) is not built yet"}},
     {"Director", "[dynamics]", "to_end = { pinned = true, director = [1, 0, 0] }\n[dynamics]", ":18:38", {"not built yet"}},
     {"StartFromResult", "step = 0.1", "step = 0.1\nstart = { file = \"result.h5\" }", ":21:18", {"a start from a result file", "not built yet"}},
-    {"JunctionOfLines",
-     "[dynamics]",
-     "[lines.b]\nfrom = \"top\"\nto = \"end\"\nsections = [{ type = \"rope\", length = 100.0, elements = 10 }]\n[dynamics]",
-     ":20:6",
-     {"lines meeting at a free point (`end`) are not built yet"}},
-    {"FreeAtBothEnds", "[points.end]", "free = true\n[points.end]", ":17:6", {"free at both ends: this is not built yet"}},
 };
 
 std::string name_of(const ::testing::TestParamInfo<Fault>& info) { return info.param.name; }

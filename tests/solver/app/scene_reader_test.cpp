@@ -219,6 +219,18 @@ TEST_F(Reader, AcceptsAStraightStartWhereTheChordIsTheLength) {
   EXPECT_EQ(read(with(sound_scene, "step = 0.1", "step = 0.1\nstart = \"straight\"")).dynamics->start, StartChoice::straight);
 }
 
+TEST_F(Reader, AcceptsAnyNumberOfLineEndsAtAFreePoint) {
+  const std::string section = "sections = [{ type = \"rope\", length = 100.0, elements = 10 }]\n";
+  const std::string more =
+      "[points.other]\nposition = [50, 0, 0]\n[points.tip]\nfree = true\nposition = [0, 0, -150]\n[lines.b]\nfrom = \"other\"\nto = \"end\"\n" +
+      section + "[lines.c]\nfrom = \"end\"\nto = \"tip\"\n" + section + "[lines.ring]\nfrom = \"end\"\nto = \"end\"\n" + section;
+  EXPECT_EQ(errors(with(sound_scene, "[dynamics]", more + "[dynamics]")), "");
+  const Scene scene = read(with(sound_scene, "[dynamics]", more + "[dynamics]"));
+  EXPECT_EQ(scene.lines.size(), 4u);
+  // A straight start must not tear the lines apart: `end` is 90 m from `top`, the line 100 m long.
+  EXPECT_NE(errors(with(with(sound_scene, "[dynamics]", more + "[dynamics]"), "step = 0.1", "step = 0.1\nstart = \"straight\"")), "");
+}
+
 TEST_F(Reader, WarnsOfWhatIsSuspicious) {
   struct Case {
     const char *from, *to, *says;
@@ -259,7 +271,7 @@ TEST_P(Scenes, ReadWithoutAWarning) {
   const Scene scene = read_scene(std::string(HAWSER_SOURCE_DIR) + "/data/scenes/" + GetParam().name + ".toml", {}, &warnings);
   EXPECT_TRUE(warnings.empty());
   EXPECT_FALSE(scene.title.empty());
-  ASSERT_EQ(scene.lines.size(), 1u);
+  ASSERT_FALSE(scene.lines.empty());
   EXPECT_EQ(scene.lines[0].name, GetParam().line);
   EXPECT_EQ(static_cast<std::size_t>(scene.lines[0].sections.at(0).elements), GetParam().elements);
   EXPECT_TRUE(scene.dynamics.has_value());
@@ -269,14 +281,15 @@ INSTANTIATE_TEST_SUITE_P(Data, Scenes,
                          ::testing::Values(SceneFile{"umbilical-heave", "umbilical", 200}, SceneFile{"catenary-5000", "tether", 1000},
                                            SceneFile{"falling-line", "rope", 512}, SceneFile{"swinging-bob", "rope", 128},
                                            SceneFile{"steady-tow", "tow", 200}, SceneFile{"current-shear", "tether", 1000},
-                                           SceneFile{"vehicle-on-tether", "tether", 150}, SceneFile{"lazy-wave-960", "wave", 389}));
+                                           SceneFile{"vehicle-on-tether", "tether", 150}, SceneFile{"lazy-wave-960", "wave", 389},
+                                           SceneFile{"three-leg-mooring", "leg_east", 90}));
 
 TEST(Scenes, OfTheDataFolderAreAllListedHere) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(HAWSER_SOURCE_DIR) + "/data/scenes")) {
     files += entry.path().extension() == ".toml";
   }
-  EXPECT_EQ(files, 9u);
+  EXPECT_EQ(files, 10u);
 }
 
 }  // namespace
