@@ -51,6 +51,19 @@ bool folded(const Model& model, const State& state) {
   return false;
 }
 
+namespace {
+
+/// An element may turn sharply next to a clamp, and left of a joint it ends with a slope of its own.
+bool bent_by_force(const Model& model, int line, int element) {
+  const Line& l = model.lines[line];
+  return std::any_of(model.joints.begin(), model.joints.end(), [&](const Joint& joint) { return joint.element == l.first_element + element; }) ||
+         std::any_of(model.supports.begin(), model.supports.end(), [&](const Support& support) {
+           return support.line == line && support.clamped && (support.node == element || support.node == element + 1);
+         });
+}
+
+}  // namespace
+
 std::optional<Knot> find_knot(const Model& model, const State& state) {
   constexpr double taut = 10.0;  // loads of an element
   for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
@@ -63,9 +76,7 @@ std::optional<Knot> find_knot(const Model& model, const State& state) {
       const Vec3 a = part(i, 3), b = part(i + 1, 3), middle = 1.5 / model.element.length[e] * (part(i + 1, 0) - part(i, 0)) - 0.25 * (a + b);
       const double tension = model.element.EA[e] * (std::min(a.norm(), b.norm()) - 1.0), load = 1e6 * model.element.minimum_tension[e];
       if (tension <= taut * load || (a.dot(middle) >= 0.0 && middle.dot(b) >= 0.0)) continue;
-      // An element left of a joint ends with a slope of its own.
-      const bool at_joint = std::any_of(model.joints.begin(), model.joints.end(), [&](const Joint& joint) { return joint.element == e; });
-      if (!at_joint) return Knot{index, line.s[i], tension};
+      if (!bent_by_force(model, index, i)) return Knot{index, line.s[i], tension};
     }
   }
   return std::nullopt;
