@@ -46,12 +46,14 @@ Columns columns(const double* x, int block) {
   return c;
 }
 
+using Cuts = std::array<double, 2 * samples + 1>;  // places in an element
+
 /// Parts of an element, xi from a to b.
 struct Piece {
   double a, b;
 };
 struct Pieces {
-  std::array<Piece, 2 * samples + 1> piece;
+  std::array<Piece, 4 * samples + 1> piece;
   int count = 0;
   const Piece* begin() const { return piece.data(); }
   const Piece* end() const { return piece.data() + count; }
@@ -85,8 +87,9 @@ class ContactElement {
 
   /// Pieces with g > 0, cut where g = 0 and, if `toe`, where g = delta.
   Pieces wet(bool toe) const;
-  /// Ends of pieces on which the penetration is monotone: exactly on a level bed (the extrema of the cubic), by sampling on a grid.
-  int monotone_cuts(std::array<double, samples + 1>& xi) const;
+  /// Ends of pieces on which the penetration is monotone: the extrema of the cubic on a level bed, on a grid those that samples of its
+  /// derivative tell. (A piece that only began at a sample would begin at once, with a jump of the force.)
+  int monotone_cuts(Cuts& xi) const;
 
   Shapes shapes(double xi) const { return Shapes(bar_, l_, xi); }
   Vec3 position(const Shapes& n) const { return q_ * n.s; }
@@ -98,6 +101,13 @@ class ContactElement {
     if (bed_.surface.level()) return level_gap(n);
     const Vec3 r = position(n);
     return bed_.surface.height(r.x(), r.y()) - r.z();
+  }
+  /// Derivative of the penetration by arc length.
+  double deepening(double xi) const {
+    const Shapes n = shapes(xi);
+    const Vec3 r = position(n), t = slope(n);
+    const SurfacePoint<double> at = bed(r);
+    return at.gradient[0] * t.x() + at.gradient[1] * t.y() - t.z();
   }
   bool laid() const { return laid_; }
   Vec3 lay(const Shapes& n) const { return lay_ * n.s; }
@@ -112,13 +122,19 @@ class ContactElement {
   Columns q_, lay_;
 };
 
-int ContactElement::monotone_cuts(std::array<double, samples + 1>& xi) const {
-  if (!bed_.surface.level()) {
-    for (int i = 0; i <= samples; ++i) xi[i] = static_cast<double>(i) / samples;
-    return samples + 1;
-  }
+int ContactElement::monotone_cuts(Cuts& xi) const {
   int count = 0;
   xi[count++] = 0.0;
+  if (!bed_.surface.level()) {
+    double left = deepening(0.0);
+    for (int i = 1; i <= samples; ++i) {
+      const double a = static_cast<double>(i - 1) / samples, b = static_cast<double>(i) / samples, right = deepening(b);
+      if ((left > 0.0) != (right > 0.0)) xi[count++] = bracketed_root([&](double x) { return deepening(x); }, a, b, left, right, root_resolution);
+      xi[count++] = b;
+      left = right;
+    }
+    return count;
+  }
   if (!bar_) {
     // z'(xi) = a xi^2 + b xi + c
     const double rise = q_(2, 2) - q_(2, 0), s0 = l_ * q_(2, 1), s1 = l_ * q_(2, 3);
@@ -140,8 +156,8 @@ Pieces ContactElement::wet(bool toe) const {
   if (immersed(toe ? bed_.law.smoothing : 0.0)) return {{Piece{0.0, 1.0}}, 1};
   const double levels[2] = {0.0, bed_.law.smoothing};
   const int level_count = toe && bed_.law.smoothing > 0.0 ? 2 : 1;
-  std::array<double, samples + 1> xi;
-  std::array<double, 2 * samples + 2> cut;
+  Cuts xi;
+  std::array<double, 4 * samples + 2> cut;
   const int count = monotone_cuts(xi);
   int cuts = 0;
   cut[cuts++] = 0.0;
@@ -231,7 +247,7 @@ void add_depth(const ContactElement& e, const Piece& piece, double s0, SeabedCon
   const double width = piece.b - piece.a;
   for (int q = 0; q < points; ++q)
     out.force += four_gauss_weight[q] * width * e.length() * contact_pressure(e.seabed().law, e.gap(piece.a + width * four_gauss_xi[q]));
-  std::array<double, samples + 1> xi;
+  Cuts xi;
   const int count = e.monotone_cuts(xi);
   for (int i = 0; i < count; ++i) {
     const double x = std::clamp(xi[i], piece.a, piece.b), g = e.gap(x);

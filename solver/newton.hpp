@@ -33,6 +33,12 @@ class NewtonSystem {
   virtual bool solve(double floor) = 0;
   virtual IncrementSize increment() const = 0;
 
+  /// Work d . R of the last increment with the residual of the last call of residual() [J]: the slope of the energy along d, where there is one.
+  virtual double work() const = 0;
+
+  /// Adds the last increment that was carried, if `moving`, to the present one, and keeps the sum: motion with momentum.
+  virtual void carry(bool moving) = 0;
+
   /// Moves the present point by `factor` times the increment.
   virtual void advance(double factor) = 0;
 };
@@ -44,6 +50,9 @@ struct NewtonOptions {
   int max_iterations = 200;
   bool inexact_matrix = false;  // the matrix is not the tangent (modified Newton): once the floor is gone, halve steps that raise the residual
 };
+
+/// The share of an increment of this size that Newton takes.
+double capped_step(const IncrementSize& size, double length);
 
 enum class NewtonStatus {
   converged,
@@ -62,5 +71,11 @@ struct NewtonReport {
 };
 
 NewtonReport newton(NewtonSystem& system, const NewtonOptions& options);
+
+/// The same with a guard, for points far from an equilibrium or near several: where the system's matrix is definite every step goes downhill.
+///   - A step ends where the residual pushes back as hard as it pushed forward at the start: |d . R(x + a d)| <= |d . R(x)| / 2.
+///   - The floor rises fivefold after a step that had to be short, and where d does not lead downhill.
+/// A line that hardly stretches has to turn in small steps then: slow from far away, but it neither flies off nor ends on a saddle.
+NewtonReport guarded_newton(NewtonSystem& system, const NewtonOptions& options);
 
 }  // namespace hawser

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/static_perturbation.hpp"
 #include "solver/static_start_loads.hpp"
 
 namespace hawser {
@@ -39,6 +40,34 @@ bool clamped(const Model& model, int line) {
   return false;
 }
 
+/// Of a solve that did not end for want of iterations.
+std::string likely_cause(const Model& model, const LeastTension& least) {
+  const Line& line = model.lines[least.line];
+  const std::string place = fmt::format("at s = {:.6g} m of \"{}\"", least.s, line.name);
+  if (model.seabed && model.seabed->law.rubs())
+    return fmt::format("friction holds the line in one of many ways, and it slips from one to the next; the least strain tension is {:.4g} N {}",
+                       least.value, place);
+  if (model.seabed && !model.seabed->surface.level())
+    return fmt::format(
+        "the bed is not level: the line slides, or lies on a bump that is shorter than its elements; the least strain tension is {:.4g} N {}",
+        least.value, place);
+  if (least.value < 0.0)
+    return fmt::format("the line went slack: strain tension {:.4g} N {}, where it may fold within an element", least.value, place);
+  return "the first guess is too far away, or the elements are too long for the bends or the current";
+}
+
+Failure without_shape(const Line& line) {
+  const bool hangs = line.from_free || line.to_free;
+  return {fmt::format("no static equilibrium can be told from any other: the line {} and carries no load", hangs ? "has a free end" : "is slack"),
+          line.name,
+          0.0,
+          fmt::format("no weight in water, no current or tow with drag, no force on it{}", hangs ? "" : ", and it is not stretched between its ends"),
+          hangs ? "give the line type a mass or wet_weight, the free point a weight or a thrust, or add a current and drag"
+                : "give the line type a mass or wet_weight, add a current and drag, or shorten the line below the distance of its ends",
+          "before any stage",
+          {}};
+}
+
 }  // namespace
 
 std::string meeting_point(const Model& model, std::size_t unknown) {
@@ -53,14 +82,15 @@ std::optional<Failure> refuse(const Model& model) {
   for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
     const Line& line = model.lines[index];
     if (!held[line.from])
-      return Failure{"no static equilibrium: nothing holds the line", line.name, 0.0,
+      return Failure{"no static equilibrium: nothing holds the line",
+                     line.name,
+                     0.0,
                      fmt::format("its ends \"{}\" and \"{}\" are free, and so is every point that it is joined to by other lines",
                                  model.points[line.from].name, model.points[line.to].name),
-                     "fix or move one of these points, or run it in time with start = \"straight\""};
-    if (shapeless(model, index) && !clamped(model, index))
-      return Failure{"no static equilibrium can be told from any other: the line is slack and carries no load", line.name, 0.0,
-                     "no weight in water, no current or tow with drag, no force on it, and it is not stretched between its ends",
-                     "give the line type a mass or wet_weight, add a current and drag, or shorten the line below the distance of its ends"};
+                     "fix or move one of these points, or run it in time with start = \"straight\"",
+                     "before any stage",
+                     {}};
+    if (shapeless(model, index) && !clamped(model, index)) return without_shape(line);
   }
   return std::nullopt;
 }
@@ -68,6 +98,15 @@ std::optional<Failure> refuse(const Model& model) {
 Failure explain_failure(const Model& model, const State& state, const StaticSystem& system, const NewtonReport& newton, const StaticReport& report) {
   const LeastTension least = least_strain_tension(model, state);
   Failure failure;
+  if (const auto knot = newton.converged() ? find_knot(model, state) : std::nullopt) {
+    failure.what =
+        fmt::format("only a knotted equilibrium was found: the line turns back within an element under a tension of {:.4g} N", knot->tension);
+    failure.line = model.lines[knot->line].name;
+    failure.s = knot->s;
+    failure.cause = "the start holds a loop that is smaller than the elements can follow";
+    failure.remedy = "start from the catenary (--start catenary), or use elements shorter than the loop if it is meant";
+    return failure;
+  }
   if (newton.converged()) {
     failure.what = fmt::format("only an unstable equilibrium was found: {} negative pivots, strain tension {:.4g} N (compression)",
                                report.negative_pivots, least.value);
@@ -96,14 +135,12 @@ Failure explain_failure(const Model& model, const State& state, const StaticSyst
   } else if (system.modified()) {
     failure.cause = fmt::format("{} takes symmetric matrices only and the drag is too strong for the symmetric part alone", report.linear_solver);
     failure.remedy = "use linear_solver = \"chain\"";
-  } else if (least.value < 0.0) {
-    failure.cause =
-        fmt::format("the line went slack: strain tension {:.4g} N at s = {:.6g} m of \"{}\"", least.value, least.s, model.lines[least.line].name);
-    failure.remedy =
-        "give the line type a small EI, use more elements there, or solve first with less current or a shorter line and continue with --from";
   } else {
-    failure.cause = "the first guess is too far away, or the elements are too long for the bends or the current";
-    failure.remedy = "double the elements, try --start straight, or solve first with less current and continue with --from";
+    failure.cause = likely_cause(model, least);
+    failure.remedy =
+        model.seabed && model.seabed->law.rubs()
+            ? "take a larger seabed slip, shorter elements on the bed, or less slack there"
+            : "give the line type a small EI, use more elements there, or solve first with less current or a shorter line and continue with --from";
   }
   return failure;
 }

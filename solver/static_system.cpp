@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "assembly/observables.hpp"
 
@@ -10,9 +11,28 @@ namespace hawser {
 namespace {
 
 constexpr double automatic_tolerance = 1e-10;
-constexpr double minimum_share = 1e-6;    // of the load on an element in Model::minimum_tension
-constexpr double unresolved_share = 0.1;  // of it: compression that the mesh does not resolve
+constexpr double minimum_share = 1e-6;      // of the load on an element in Model::minimum_tension
+constexpr double unresolved_share = 0.1;    // of it: compression that the mesh does not resolve
+constexpr double neutral_share = 1e-2;      // of the load on an element over the length of the line: a thousandth of what lets a column fall
+constexpr double neutral_rounding = 1e-14;  // of EA/l
 constexpr TangentWeights static_weights{1.0, 0.0, 0.0};
+
+/// Negative pivots of a tangent, with a little stiffness on every node (k on r, k l^2 on r'): what rounding or a hundredth of a pendulum's stiffness
+/// decides is neutral. A line whose ends are above each other turns freely about them.
+int negative_pivots(const Model& model, Tangent tangent) {
+  BlockTridiagonal& matrix = tangent.chain;
+  for (std::size_t index = 0; index < model.lines.size(); ++index) {
+    const Line& line = model.lines[index];
+    const Chain& chain = matrix.chains()[index];
+    for (int i = 0; i < chain.nodes; ++i) {
+      const int e = line.first_element + std::min(i, line.elements - 1);
+      const double l = model.element.length[e], load = model.element.minimum_tension[e] / minimum_share;
+      const double k = neutral_share * load / line.length + neutral_rounding * model.element.EA[e] / l;
+      for (int c = 0; c < chain.block; ++c) matrix.D(chain, i)[c * (chain.block + 1)] += c < 3 ? k : k * l * l;
+    }
+  }
+  return inertia_of_symmetric_part(matrix).negative + tangent.negative_inner_pivots() + negative_hub_pivots(tangent);
+}
 
 }  // namespace
 
@@ -53,8 +73,10 @@ double StaticSystem::residual() {
 double StaticSystem::least_tension() { return least_strain_tension(model_, state_).value; }
 
 bool StaticSystem::solve(double floor) {
-  const bool exact = floor == 0.0 && residual_ <= exact_below_ * reference_force_ && least_tension() < -10.0 * least_kept_;
-  TangentPanels panels = assembler_.tangent_panels(state_, static_weights, {floor, !exact, floor > 0.0}, r_, tangent_, rhs_);
+  bool exact = floor == 0.0 && residual_ <= exact_below_ * reference_force_ && least_tension() < -10.0 * least_kept_;
+  const bool definite = !exact || !keep_definite_ || negative_pivots_here() == 0;
+  exact = exact && definite;
+  TangentPanels panels = assembler_.tangent_panels(state_, static_weights, {floor, !exact, floor > 0.0 || !definite}, r_, tangent_, rhs_);
   factor_report_ = factorize_and_solve(panels);
   assembler_.project(r_);
   if (factor_report_.status != FactorStatus::ok) return false;
@@ -73,6 +95,19 @@ FactorReport StaticSystem::factorize_and_solve(TangentPanels& panels) {
   const FactorReport report = linear_.factorize(tangent_);
   if (report.status == FactorStatus::ok) linear_.solve(rhs_);
   return report;
+}
+
+int StaticSystem::negative_pivots_here() {
+  assembler_.tangent(state_, static_weights, TangentFloor{}, r_, tangent_);
+  return negative_pivots(model_, tangent_);
+}
+
+double StaticSystem::work() const { return std::inner_product(d_.begin(), d_.end(), r_.begin(), 0.0); }
+
+void StaticSystem::carry(bool moving) {
+  if (moving)
+    for (std::size_t i = 0; i < d_.size(); ++i) d_[i] += carried_[i];
+  carried_ = d_;
 }
 
 void StaticSystem::advance(double factor) {
@@ -114,7 +149,7 @@ int negative_pivots_of_elastic_tangent(const Model& model, const State& state) {
   Tangent tangent = assembler.make_tangent();
   std::vector<double> r(elastic.unknowns);
   assembler.tangent(state, static_weights, TangentFloor{}, r, tangent);
-  return inertia_of_symmetric_part(tangent.chain).negative + tangent.negative_inner_pivots() + negative_hub_pivots(tangent);
+  return negative_pivots(elastic, tangent);
 }
 
 }  // namespace hawser

@@ -25,7 +25,12 @@ class StaticSystem : public NewtonSystem {
   double least_tension() override;
   bool solve(double floor) override;
   IncrementSize increment() const override { return increment_size(model_, d_); }
+  double work() const override;
+  void carry(bool moving) override;
   void advance(double factor) override;
+
+  /// Takes the exact matrix only where it has no negative pivot: then every increment leads downhill.
+  void keep_definite(bool keep) { keep_definite_ = keep; }
 
   double reference_force() const { return reference_force_; }
   WorstNode worst() const { return worst_node(model_, r_); }  // of the last residual
@@ -34,6 +39,7 @@ class StaticSystem : public NewtonSystem {
 
  private:
   FactorReport factorize_and_solve(TangentPanels& panels);
+  int negative_pivots_here();
 
   const Assembler& assembler_;
   const Model& model_;
@@ -42,10 +48,10 @@ class StaticSystem : public NewtonSystem {
   double relative_tolerance_;
   double exact_below_;
   Tangent tangent_;
-  std::vector<double> r_, rhs_, d_;
+  std::vector<double> r_, rhs_, d_, carried_;
   double residual_ = 0.0, reference_force_ = 0.0, roundoff_ = 0.0;  // N
   double least_kept_ = 0.0;                                         // N, largest Model::minimum_tension
-  bool modified_ = false;
+  bool modified_ = false, keep_definite_ = false;
   FactorReport factor_report_;
 };
 

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "assembly/observables.hpp"
+#include "solver/relaxation.hpp"
+#include "solver/static_continuation.hpp"
 #include "solver/static_failure.hpp"
+#include "solver/static_perturbation.hpp"
 #include "solver/static_start_loads.hpp"
 #include "solver/static_system.hpp"
 
@@ -18,13 +19,16 @@ namespace {
 
 constexpr int unfloored_iterations = 30;   // of one stage; a good start needs a tenth of them
 constexpr int floored_iterations = 150;    // of one stage; a straight start needs a quarter of them
+constexpr int bowed_iterations = 50;       // of a state that is bowed sideways
 constexpr double beam_exact_below = 1e-4;  // residual over reference force: near a solution
 constexpr double loose_tolerance = 1e-6;   // theory 6.1, where the automatic one cannot be reached (slope of a bare end)
 constexpr double loose_increment = 1e-4;   // of the length
-constexpr double first_slip = 0.1;         // of the length: where friction is let in step by step
-constexpr double slip_ratio = 0.1;         // from one slip to the next; its root after a failure
-constexpr double least_slip_step = 0.8;    // then it is given up
 constexpr double floor_share = 0.25;       // of the load: T_f = 0.25 w L (theory 7.2)
+constexpr double guard_floor = 1e-5;       // of T_f, where a guarded Newton starts near a solution
+constexpr double way_tolerance = 1e-7;     // of the models on the way of a continuation
+constexpr double way_increment = 1e-5;     // of the length
+constexpr double relaxation_floor = 1e-2;  // of T_f
+constexpr int relaxation_steps = 1000;
 
 double longest_line(const Model& model) {
   double longest = 0.0;
@@ -32,40 +36,19 @@ double longest_line(const Model& model) {
   return longest;
 }
 
-double starting_floor(const Model& model) {
-  double floor = 0.0;
-  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) floor = std::max(floor, floor_share * load_scale(model, line));
-  return floor;
+double largest_load(const Model& model) {
+  double largest = 0.0;
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) largest = std::max(largest, load_scale(model, line));
+  return largest;
 }
 
-/// Bows every line sideways, across its chord and where possible along its load: out of an unstable state.
-void perturb_sideways(const Model& model, State& state) {
-  for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
-    const Line& line = model.lines[index];
-    const Chain& chain = model.chain(index);
-    const auto r = [&](int node) { return Eigen::Map<Vec3>(&state.q[chain.dof(node)]); };
-    const Vec3 chord = r(line.nodes - 1) - r(0);
-    const double c = chord.norm(), L = line.length;
-    const Vec3 t = c > 0.0 ? Vec3(chord / c) : Vec3::UnitX();
-    Vec3 n = -Vec3::UnitZ() + t.z() * t;
-    n = n.norm() > 1e-3 ? n.normalized() : t.unitOrthogonal();
-    const double bow = std::clamp(std::sqrt(0.375 * c * std::max(L - c, 0.0)), 0.01 * L, 0.3 * L);  // sag of a parabola of length L
-    const bool free = line.from_free || line.to_free;
-    for (int i = 0; i < line.nodes; ++i) {
-      const double x = line.from_free ? 1.0 - line.s[i] / L : line.s[i] / L;
-      const double turn = free ? 0.5 * std::numbers::pi : std::numbers::pi;
-      const double shape = free ? 1.0 - std::cos(turn * x) : std::pow(std::sin(turn * x), 2);
-      const double slope = (free ? turn * std::sin(turn * x) : turn * std::sin(2.0 * turn * x)) / (line.from_free ? -L : L);
-      r(i) += bow * shape * n;
-      if (chain.block == 6) Eigen::Map<Vec3>(&state.q[chain.dof(i) + 3]) += bow * slope * n;
-    }
-  }
-  model.prescribe(state);
-  std::fill(state.a.begin(), state.a.end(), 0.0);
-  for (const Chain& chain : model.chains)
-    for (int i = 0; i < chain.nodes; ++i) Eigen::Map<Vec3>(&state.v[chain.dof(i)]) = model.tow;
-  model.align_clamps(state);
-}
+/// How one Newton is run.
+struct Attempt {
+  double floor = 0.0;  // N, T_f at its start
+  bool guarded = false;
+  bool on_the_way = false;  // of a continuation: not so exact, and not reported
+  int iterations = unfloored_iterations;
+};
 
 /// One run of solve_static: stages, each a Newton and a certificate.
 class StaticSolver {
@@ -77,96 +60,173 @@ class StaticSolver {
         state_(state),
         report_(report),
         linear_(make_linear_solver(options.linear_solver, options.threads)),
-        floor_(starting_floor(model_)),
+        load_(largest_load(model_)),
         limp_(*std::min_element(model_.element.EI.begin(), model_.element.EI.end()) == 0.0),
         tolerance_(options.tolerance) {
     report_.linear_solver = linear_->name();
   }
 
   void run() {
-    const bool straight = options_.start == StaticStart::straight;
-    const State start = options_.start == StaticStart::given ? state_ : static_start(model_, options_.start);
-    if (!straight && accepted("Newton from the start", start, 0.0)) return;
-    if (with_friction_step_by_step(start)) return;
-    if (accepted("tension-floored Newton from the start", start, floor_)) return;
-    if (options_.start != StaticStart::catenary) {
-      const State catenary = static_start(model_, StaticStart::catenary);
-      if (accepted("Newton from the catenary", catenary, 0.0) || accepted("tension-floored Newton from the catenary", catenary, floor_)) return;
-    }
-    if (without_bending_first()) return;
-    if (!straight && accepted("tension-floored Newton from straight lines", static_start(model_, StaticStart::straight), floor_)) return;
-    if (options_.tolerance > 0.0) return;
-    tolerance_ = loose_tolerance;
-    increment_tolerance_ = loose_increment;
-    accepted("tension-floored Newton from the start, to a looser tolerance", start, floor_);
+    if (!solved()) keep_best();
   }
 
  private:
-  /// Solves from a start; true if the result is a stable equilibrium. An unstable one is bowed sideways and solved again.
-  bool accepted(const std::string& name, const State& start, double floor) {
-    state_ = start;
-    if (!converges(assembler_, name, floor)) return false;
-    if (report_.stable) return true;
-    perturb_sideways(model_, state_);
-    return converges(assembler_, name + ", bowed sideways because the result was compressed", floor_) && report_.stable;
-  }
-
-  /// EI = 0 from the catenary, then with EI from there: a folded start unfolds (theory 7.2).
-  bool without_bending_first() {
-    if (*std::max_element(model_.element.EI.begin(), model_.element.EI.end()) <= 0.0) return false;
-    Model limp = model_;
-    std::fill(limp.element.EI.begin(), limp.element.EI.end(), 0.0);
-    const Assembler limp_assembler(limp, std::max(1, options_.threads));
-    state_ = static_start(limp, StaticStart::catenary);
-    if (!converges(limp_assembler, "without bending stiffness", floor_)) return false;
-    const State start = state_;
-    return accepted("with bending stiffness from there", start, 0.0) || accepted("the same, tension-floored", start, floor_);
-  }
-
-  /// Friction with a large elastic slip first, which nearly lets the line slide, then with less and less (theory 5.4).
-  bool with_friction_step_by_step(State start) {
-    if (!model_.seabed || !model_.seabed->law.rubs()) return false;
-    const double wanted = model_.seabed->law.slip;
-    Model relaxed = model_;
-    const auto solved = [&](double slip, double floor) {
-      relaxed.seabed->law.slip = slip;
-      state_ = start;
-      return converges(Assembler(relaxed, std::max(1, options_.threads)), fmt::format("friction with a slip of {:.2g} m", slip), floor) &&
-             report_.stable;
-    };
-    double slip = std::max(wanted, first_slip * longest_line(model_));
-    if (!solved(slip, 0.0) && !solved(slip, floor_)) return false;
-    for (double ratio = slip_ratio; slip > wanted && ratio < least_slip_step;) {
-      start = state_;
-      const double next = std::max(wanted, slip * ratio);
-      if (solved(next, 0.0))
-        slip = next;
-      else
-        ratio = std::sqrt(ratio), state_ = start;
+  bool solved() {
+    if (options_.start != StaticStart::catenary) {
+      const bool given = options_.start == StaticStart::given;
+      const State start = given ? state_ : static_start(model_, options_.start);
+      if (given && accepted("Newton from the start", start, unfloored())) return true;
+      if (accepted("tension-floored Newton from the start", start, floored())) return true;
     }
-    return slip == wanted;
+    if (exhausted()) return false;
+    const State start = static_start(model_, StaticStart::catenary);
+    if (accepted("Newton from the catenary", start, unfloored())) return true;
+    const bool hangs = has_free_end() && !model_.seabed;  // what is hard there is the end itself, which no stiffness helps
+    if (hangs && accepted("tension-floored Newton from the catenary", start, floored())) return true;
+    if (by_continuation(start)) return true;
+    if (!hangs && accepted("tension-floored Newton from the catenary", start, floored())) return true;
+    if (by_relaxation(start)) return true;
+    if (options_.tolerance > 0.0) return false;
+    tolerance_ = loose_tolerance;
+    increment_tolerance_ = loose_increment;
+    return accepted("tension-floored Newton from the catenary, to a looser tolerance", start, floored());
   }
 
-  bool converges(const Assembler& assembler, const std::string& name, double floor) {
-    const int left = options_.max_iterations - report_.iterations;
-    if (left <= 0) return false;
-    const double exact_below = !limp_ ? beam_exact_below : floor > 0.0 ? 0.0 : HUGE_VAL;
-    StaticSystem system(assembler, *linear_, tolerance_, exact_below, state_);
+  bool has_free_end() const {
+    return std::any_of(model_.lines.begin(), model_.lines.end(), [](const Line& line) { return line.from_free || line.to_free; });
+  }
+  double first_floor() const { return floor_share * load_; }
+  Attempt unfloored() const { return {}; }
+  Attempt floored() const { return {first_floor(), false, false, floored_iterations}; }
+  bool exhausted() const { return report_.iterations >= options_.max_iterations; }
+
+  /// Solves from a start; true if the result is a stable equilibrium. An unstable one is bowed sideways and solved again.
+  bool accepted(const std::string& name, const State& start, const Attempt& attempt) {
+    if (exhausted()) return false;
+    state_ = start;
+    if (!converges(assembler_, name, attempt)) return false;
+    if (report_.stable) return true;
+    if (exhausted()) return false;
+    bow_sideways(model_, state_);
+    return converges(assembler_, name + ", bowed sideways because the result was compressed or knotted",
+                     {first_floor(), false, false, bowed_iterations}) &&
+           report_.stable;
+  }
+
+  /// From an easier model to the real one (static_continuation.hpp).
+  bool by_continuation(const State& start) {
+    if (exhausted()) return false;
+    StaticContinuation way(model_, load_);
+    const int before = report_.iterations;
+    const bool hangs_in_legs = folded(model_, start) && !model_.seabed;
+    const bool arrived = first_on_the_way(way, hangs_in_legs ? open_start(model_) : start) && follow(way);
+    report(fmt::format("continuation of the stiffnesses: {} after {} steps, {} factorizations{}",
+                       !arrived         ? "no way on"
+                       : report_.stable ? "converged"
+                                        : "converged, compressed or knotted",
+                       way.steps(), report_.iterations - before, arrived ? "" : ", at " + way.place()));
+    return arrived && report_.stable;
+  }
+
+  bool first_on_the_way(const StaticContinuation& way, const State& start) {
+    const Attempt attempts[] = {{first_floor(), false, true, 40}, {first_floor(), true, true, 150}};
+    const auto found = [&](const State& from) { return reached(way, from, attempts); };
+    if (!found(start)) return false;
+    if (report_.stable) return true;
+    bow_sideways(model_, state_);
+    return found(State(state_));
+  }
+
+  bool follow(StaticContinuation& way) {
+    const Attempt attempts[] = {{0.0, false, true, 15}, {guard_floor * first_floor(), true, true, 100}};
+    while (!way.at_end()) {
+      const State before = state_;
+      way.advance();
+      if (reached(way, before, attempts)) continue;
+      state_ = before;
+      if (exhausted() || !way.retreat()) return false;
+    }
+    return true;
+  }
+
+  /// The equilibrium of the model on the way, by the plain Newton where that is stable, or else by the guarded one.
+  bool reached(const StaticContinuation& way, const State& from, const Attempt (&attempts)[2]) {
+    const Assembler relaxed(way.model(), std::max(1, options_.threads));
+    for (Attempt attempt : attempts) {
+      attempt.on_the_way = !way.at_end();
+      state_ = from;
+      if (converges(relaxed, "at the end of the continuation", attempt) && (attempt.guarded || report_.stable)) return true;
+    }
+    return false;
+  }
+
+  /// Set in motion from the start, bowed sideways, until it comes to rest (relaxation.hpp); then Newton.
+  bool by_relaxation(const State& start) {
+    if (exhausted()) return false;
+    state_ = start;
+    bow_sideways(model_, state_);
+    StaticSystem system(assembler_, *linear_, tolerance_, 0.0, state_);
+    RelaxationOptions motion;
+    motion.length = longest_line(model_);
+    motion.floor = relaxation_floor * first_floor();
+    motion.max_steps = std::min(options_.max_iterations - report_.iterations, relaxation_steps);
+    const NewtonReport result = relax(system, motion);
+    report_.iterations += result.factorizations;
+    report(fmt::format("dynamic relaxation: {} after {} steps, residual {:.2g} N", result.converged() ? "at rest" : "in motion",
+                       result.factorizations, result.residual));
+    const State left = state_;
+    if (!converges(assembler_, "Newton from where it was left", unfloored())) {
+      state_ = left;
+      if (!converges(assembler_, "guarded Newton from where it was left", {guard_floor * first_floor(), true, false, 100})) return false;
+    }
+    return report_.stable;
+  }
+
+  bool converges(const Assembler& assembler, const std::string& name, const Attempt& attempt) {
+    if (exhausted()) return false;
+    const double exact_below = attempt.guarded ? HUGE_VAL : !limp_ ? beam_exact_below : attempt.floor > 0.0 ? 0.0 : HUGE_VAL;
+    StaticSystem system(assembler, *linear_, attempt.on_the_way ? way_tolerance : tolerance_, exact_below, state_);
+    system.keep_definite(attempt.guarded && !unsymmetric());
     NewtonOptions newton_options;
     newton_options.length = longest_line(model_);
-    newton_options.floor = floor;
-    newton_options.increment_tolerance = increment_tolerance_;
-    newton_options.max_iterations = std::min(left, floor > 0.0 ? floored_iterations : unfloored_iterations);
+    newton_options.floor = attempt.floor;
+    newton_options.increment_tolerance = attempt.on_the_way ? way_increment : increment_tolerance_;
+    newton_options.max_iterations = std::min(options_.max_iterations - report_.iterations, attempt.iterations);
     newton_options.inexact_matrix = !linear_->takes_unsymmetric() && unsymmetric();
-    const NewtonReport result = newton(system, newton_options);
+    const NewtonReport result = attempt.guarded ? guarded_newton(system, newton_options) : newton(system, newton_options);
     record(system, result);
-    if (result.converged()) certify(system);
-    const std::string outcome = !result.converged() ? "not converged" : report_.stable ? "converged" : "converged, compressed and unstable";
-    report_.stages.push_back(fmt::format("{}: {} after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, result.factorizations,
-                                         report_.residual, report_.reference_force));
-    if (options_.log) options_.log(report_.stages.back());
-    if (!report_.converged || !report_.stable) report_.failure = explain_failure(model_, state_, system, result, report_);
+    if (result.converged()) certify(assembler.model(), system);
+    if (attempt.on_the_way) return result.converged();
+    const std::string outcome = !result.converged() ? "not converged" : report_.stable ? "converged" : "converged, compressed or knotted";
+    report(fmt::format("{}: {} after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, result.factorizations, report_.residual,
+                       report_.reference_force));
+    if (!report_.converged || !report_.stable) remember(name, explain_failure(model_, state_, system, result, report_));
     return result.converged();
+  }
+
+  /// The best of the states that were not accepted: a converged one, or else the one with the least residual.
+  void remember(const std::string& name, const Failure& failure) {
+    if (!best_.failure.what.empty() && std::pair(best_.report.converged, -best_.report.residual) >= std::pair(report_.converged, -report_.residual))
+      return;
+    best_ = {state_, report_, failure};
+    best_.failure.stage = name;
+  }
+
+  void keep_best() {
+    const StaticReport all = report_;
+    if (best_.failure.what.empty()) return;
+    state_ = std::move(best_.state);
+    report_ = best_.report;
+    report_.stages = all.stages;
+    report_.iterations = all.iterations;
+    report_.modified_newton = all.modified_newton;
+    report_.failure = best_.failure;
+    report_.failure.kept = fmt::format("the state of this stage, the best of {}; {} factorizations in all", all.stages.size(), all.iterations);
+  }
+
+  void report(const std::string& stage) {
+    report_.stages.push_back(stage);
+    if (options_.log) options_.log(stage);
   }
 
   /// Drag, friction and a bed that is not level have no potential.
@@ -183,11 +243,11 @@ class StaticSolver {
     report_.modified_newton = report_.modified_newton || system.modified();
   }
 
-  /// Stable: no compression that could buckle a line, or no negative pivot of the exact elastic tangent.
-  void certify(StaticSystem& system) {
-    const bool tension = free_of_compression(model_, state_, system.roundoff());
-    report_.negative_pivots = tension ? 0 : negative_pivots_of_elastic_tangent(model_, state_);
-    report_.stable = report_.negative_pivots == 0;
+  /// Stable: no knot, and no compression that could buckle a line, or no negative pivot of the exact elastic tangent.
+  void certify(const Model& model, StaticSystem& system) {
+    const bool tension = free_of_compression(model, state_, system.roundoff());
+    report_.negative_pivots = tension ? 0 : negative_pivots_of_elastic_tangent(model, state_);
+    report_.stable = report_.negative_pivots == 0 && !find_knot(model, state_);
   }
 
   const Assembler& assembler_;
@@ -196,9 +256,14 @@ class StaticSolver {
   State& state_;
   StaticReport& report_;
   std::unique_ptr<LinearSolver> linear_;
-  double floor_;  // N, T_f at the start of a floored stage
-  bool limp_;     // some element has no bending stiffness
+  double load_;  // N, of the line with the largest one
+  bool limp_;    // some element has no bending stiffness
   double tolerance_, increment_tolerance_ = NewtonOptions{}.increment_tolerance;
+  struct {
+    State state;
+    StaticReport report;
+    Failure failure;
+  } best_;
 };
 
 }  // namespace

@@ -22,8 +22,8 @@ enum class StaticStart { catenary, straight, given };
 struct StaticOptions {
   StaticStart start = StaticStart::catenary;
   LinearSolverKind linear_solver = LinearSolverKind::automatic;
-  double tolerance = 0.0;    // relative residual (theory 6.1); 0: automatic
-  int max_iterations = 400;  // factorizations, over all stages
+  double tolerance = 0.0;     // relative residual (theory 6.1); 0: automatic
+  int max_iterations = 3000;  // factorizations, over all stages
   int threads = 1;
   std::function<void(const std::string&)> log;  // one line per stage; may be empty
 };
@@ -34,6 +34,7 @@ struct Failure {
   std::string line;           // name of the line
   double s = 0.0;             // m, arc length of the worst node
   std::string cause, remedy;  // likely cause; what to try
+  std::string stage, kept;    // statics: the stage that this is said of; what is left in the state
 };
 
 struct StaticReport {
@@ -49,7 +50,7 @@ struct StaticReport {
   Failure failure;                  // where !converged
 };
 
-/// Fills `state` with the equilibrium; on failure `state` is what the last stage left.
+/// Fills `state` with the equilibrium; on failure with the best of what the stages left.
 StaticReport solve_static(const Assembler& assembler, const StaticOptions& options, State& state);
 
 /// The first guess that solve_static uses for a start (not `given`).

@@ -138,8 +138,10 @@ Model build_requested_model(const Scene& scene) {
 void say_failure(const Failure& failure) {
   say_error(failure.what);
   if (!failure.line.empty()) fmt::print(stderr, "  where   line {}, s = {:.6g} m\n", failure.line, failure.s);
+  if (!failure.stage.empty()) fmt::print(stderr, "  stage   {}\n", failure.stage);
   if (!failure.cause.empty()) fmt::print(stderr, "  cause   {}\n", failure.cause);
   if (!failure.remedy.empty()) fmt::print(stderr, "  remedy  {}\n", failure.remedy);
+  if (!failure.kept.empty()) fmt::print(stderr, "  kept    {}\n", failure.kept);
 }
 
 int run_program(int argc, const char* const* argv) {

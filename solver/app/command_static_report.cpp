@@ -132,7 +132,8 @@ Json points_document(const Model& model, std::span<const PointResult> points) {
 }
 
 Json failure_document(const Failure& failure) {
-  return {{"what", failure.what}, {"line", failure.line}, {"s", failure.s}, {"cause", failure.cause}, {"remedy", failure.remedy}};
+  return {{"what", failure.what},   {"line", failure.line},     {"s", failure.s},      {"stage", failure.stage},
+          {"cause", failure.cause}, {"remedy", failure.remedy}, {"kept", failure.kept}};
 }
 
 Json static_document(const Model& model, const StaticSolution& solution, int stations) {

@@ -216,10 +216,13 @@ Failure explain(const Problem& problem, const StaticReport& report, int flag) {
   Failure failure;
   if (report.negative_pivots > 0) {
     const LeastTension least = least_strain_tension(model, problem.state);
-    return {fmt::format("KINSOL found an unstable equilibrium: {} negative pivots, strain tension {:.4g} N (compression)", report.negative_pivots,
-                        least.value),
-            model.lines[static_cast<std::size_t>(least.line)].name, least.s, "its line search follows the start and knows nothing of stability",
-            "use --method newton, which leaves unstable states, or another start"};
+    failure.what = fmt::format("KINSOL found an unstable equilibrium: {} negative pivots, strain tension {:.4g} N (compression)",
+                               report.negative_pivots, least.value);
+    failure.line = model.lines[static_cast<std::size_t>(least.line)].name;
+    failure.s = least.s;
+    failure.cause = "its line search follows the start and knows nothing of stability";
+    failure.remedy = "use --method newton, which leaves unstable states, or another start";
+    return failure;
   }
   std::vector<double> r(model.unknowns);
   problem.assembler.residual(problem.state, r);

@@ -320,6 +320,25 @@ TEST(Seabed, ADipBetweenTwoNodesAboveTheBedIsFound) {
   EXPECT_NEAR(contact.largest_penetration, 0.08, 1e-14);
 }
 
+// Over a cell whose diagonal rises as 4 u (1 - u) between its ends, a level element dips into the bed by d over sqrt(d) of its length. The least
+// of these is far narrower than an eighth of the element.
+TEST(Seabed, ABumpWithinAnElementIsFoundHoweverNarrow) {
+  const double l = 8.0, side = l / std::sqrt(2.0);
+  for (const double d : {1e-8, 1e-5, 1e-3}) {
+    // z = -10 + 4 u (1 - v), with u = v + offset along the line: highest at v = (1 - offset)/2, between two samples.
+    SceneBuilder builder;
+    const double offset = 0.09, top = std::pow(1.0 + offset, 2), z = -10.0 + top - d;
+    builder.type(test::line_type("rope", 1e8, 10.0)).fixed("a", {offset * side, 0, z}).fixed("b", {(1.0 + offset) * side, side, z});
+    Scene scene = builder.line("a", "b", ModelChoice::bar).section("rope", l, 1).scene;
+    scene.environment.seabed.bathymetry = BathymetryGrid{{0.0, side}, {0.0, side}, {-10.0, -6.0, -10.0, -10.0}};
+    const Model model = build_model(scene);
+    State state = model.make_state();
+    model.prescribe(state);
+    // (u)(1 - v) = (v + offset)(1 - v) is a parabola of curvature 8 in v: as deep as d within sqrt(d)/2 to both sides.
+    EXPECT_NEAR(observe_seabed(model, state, 0).length, l * std::sqrt(d), 1e-5 * l * std::sqrt(d) + 1e-14 * l / std::sqrt(d)) << d;
+  }
+}
+
 TEST(Seabed, LayStateRunsFromTheGroundedEndInPlanTowardsTheOther) {
   SceneBuilder builder;
   builder.dry().type(test::line_type("t", 1e5, 12.0)).fixed("ship", {3, 4, 0}).fixed("anchor", {63, 84, -50.0}).line("ship", "anchor");

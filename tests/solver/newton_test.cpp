@@ -26,6 +26,11 @@ class Scalar : public NewtonSystem {
   double tolerance() override { return accept; }
   double roundoff() override { return rounding; }
   double least_tension() override { return df(x); }
+  double work() const override { return d_ * f(x); }
+  void carry(bool moving) override {
+    if (moving) d_ += carried_;
+    carried_ = d_;
+  }
   bool solve(double floor) override {
     floors.push_back(floor);
     d_ = -f(x) / std::max(df(x), floor);
@@ -35,7 +40,7 @@ class Scalar : public NewtonSystem {
   void advance(double factor) override { x += factor * d_; }
 
  private:
-  double d_ = 0.0;
+  double d_ = 0.0, carried_ = 0.0;
 };
 
 double cubic(double x) { return x * x * x + x - 2.0; }
@@ -144,6 +149,39 @@ TEST(Newton, HalvesStepsThatRaiseTheResidualWhenTheMatrixIsInexact) {
   const NewtonReport report = newton(damped, options);
   EXPECT_LE(report.residual, damped.accept);
   for (std::size_t k = 1; k < report.residuals.size(); ++k) EXPECT_LE(report.residuals[k], report.residuals[k - 1]);
+}
+
+TEST(GuardedNewton, FindsTheRootWithAQuadraticTail) {
+  Scalar system(cubic, cubic_slope, 1.3);
+  NewtonOptions options;
+  options.length = 100.0;
+  const NewtonReport report = guarded_newton(system, options);
+  ASSERT_EQ(report.status, NewtonStatus::converged);
+  EXPECT_NEAR(system.x, 1.0, 1e-15);
+  EXPECT_LE(report.factorizations, 7);
+}
+
+TEST(GuardedNewton, ShortensAStepAgainstWhichTheResidualPushesBack) {
+  // A soft start and a hard stop at x = 1: the whole step of 10 would end far behind it.
+  Scalar system([](double x) { return 0.1 * (x - 1.0) + 1e3 * std::pow(std::max(0.0, x - 1.0), 3); },
+                [](double x) { return 0.1 + 3e3 * std::pow(std::max(0.0, x - 1.0), 2); }, 0.0);
+  system.f = [](double x) { return -1.0 + 0.1 * x + 1e3 * std::pow(std::max(0.0, x - 1.0), 3); };
+  NewtonOptions options;
+  options.length = 1000.0;
+  options.max_iterations = 1;
+  guarded_newton(system, options);
+  EXPECT_GT(system.x, 0.5);
+  EXPECT_LT(system.f(system.x), 0.5);
+}
+
+TEST(GuardedNewton, GoesDownhillWhereTheSlopeIsNegativeByRaisingTheFloor) {
+  // Energy x^4/4 - x^2/2: Newton's own step from 0.1 goes up to the saddle at 0.
+  Scalar system([](double x) { return x * x * x - x; }, [](double x) { return 3.0 * x * x - 1.0; }, 0.1);
+  NewtonOptions options;
+  options.length = 100.0;
+  options.floor = 1.0;
+  ASSERT_TRUE(guarded_newton(system, options).converged());
+  EXPECT_NEAR(system.x, 1.0, 1e-12);
 }
 
 }  // namespace

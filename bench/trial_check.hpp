@@ -1,0 +1,222 @@
+// What must hold of a static answer, checked without the solver's own word for it (README.md, "The trial of statics").
+//
+//   equations    the residual, assembled anew, is below 1e-10 of the largest reaction (or of what rounding leaves)
+//   stability    the elastic tangent has no negative pivot, or no part of the line is compressed
+//   balance      reactions + weight + bodies + drag + bed = 0, the loads integrated here along the shape
+//   catenary     closed form: span under the computed end force, and the minimum of the energy from its dual,
+//                  E = F(L).D - int ( |F| + |F|^2/2EA ) ds,   F = F0 - q s
+//   hanging      closed form: straight, tension = what hangs below
+#pragma once
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "assembly/assembler.hpp"
+#include "assembly/observables.hpp"
+#include "assembly/seabed.hpp"
+#include "bench/trial_scenes.hpp"
+#include "solver/norms.hpp"
+#include "solver/static_start_catenary.hpp"
+#include "solver/static_start_loads.hpp"
+#include "solver/static_system.hpp"
+#include "solver/statics.hpp"
+
+namespace hawser::bench {
+
+class TrialCheck {
+ public:
+  TrialCheck(const Trial& trial, const Model& model, const State& state)
+      : trial_(trial), model_(model), state_(state), line_(model.lines[0]), residual_(model.unknowns) {
+    const Assembler assembler(model);
+    assembler.residual(state, residual_);
+    reference_ = reference_force(model, residual_);
+    for (const Support& support : model.supports) reactions_ += Eigen::Map<const Vec3>(&residual_[model.dof(support.line, support.node)]);
+    assembler.project(residual_);
+  }
+
+  /// What is wrong with the answer; `loose`: of one that the solver says it took to 1e-6 only.
+  std::optional<std::string> complaint(bool loose = false) const {
+    for (const auto& check : {equations(loose ? 1e-6 : 1e-10), stability(), balance(), closed_form()})
+      if (check) return check;
+    return std::nullopt;
+  }
+
+ private:
+  using Complaint = std::optional<std::string>;
+
+  Complaint equations(double tolerance) const {
+    const double residual = residual_norm(model_, residual_), allowed = std::max(tolerance * reference_, unbalanced());
+    if (residual <= 1.001 * allowed) return std::nullopt;
+    return fmt::format("residual {:.2e} N of {:.2e} N allowed", residual, allowed);
+  }
+
+  /// N, of one node: the tolerance of Newton, or what rounding leaves.
+  double unbalanced() const {
+    constexpr double margin = 20.0;  // of rounding: newton.cpp
+    return std::max(1e-10 * reference_, margin * roundoff_force(model_, state_));
+  }
+
+  Complaint stability() const {
+    if (free_of_compression(model_, state_, roundoff_force(model_, state_))) return std::nullopt;
+    const int pivots = negative_pivots_of_elastic_tangent(model_, state_);
+    if (pivots == 0) return std::nullopt;
+    return fmt::format("unstable: {} negative pivots", pivots);
+  }
+
+  Complaint balance() const {
+    const Vec3 fine = loads(20), coarse = loads(10);
+    const double error = (reactions_ + fine).norm();
+    // Twenty and ten midpoints an element: their difference bounds what the integration leaves, and the kernels' own three points.
+    const double allowed = line_.nodes * unbalanced() + 50.0 * (fine - coarse).norm();
+    // The kernels' own points: three for drag where the line bends within an element, four for friction that turns round within one. Midpoints
+    // of ours where a line leaves the bed.
+    double kernel = 0.02 * drag_;
+    if (model_.seabed) kernel += (0.02 + 2.0 * std::max(model_.seabed->law.friction_axial, model_.seabed->law.friction_lateral)) * heaviest_element();
+    if (error <= allowed + kernel) return std::nullopt;
+    return fmt::format("out of balance by {:.2e} N of {:.2e} N", error, reference_);
+  }
+
+  double heaviest_element() const {
+    double heaviest = 0.0;
+    for (std::size_t e = 0; e < model_.element.length.size(); ++e)
+      heaviest = std::max(heaviest, std::abs(model_.element.weight[e]) * model_.element.length[e]);
+    return heaviest;
+  }
+
+  /// All loads but the reactions.
+  Vec3 loads(int points) const {
+    Vec3 sum = Vec3::Zero();
+    drag_ = 0.0;
+    for (const Body& body : model_.bodies) sum += body_force(model_, body, state_.q[model_.dof(0, body.node) + 2]);
+    for (const SpreadLoad& spread : model_.spread_loads) sum += spread.share * spread.force(0.0);
+    for (int i = 0; i < line_.elements; ++i) {
+      const int e = line_.first_element + i;
+      const double l = model_.element.length[e];
+      sum -= l * model_.element.weight[e] * Vec3::UnitZ();
+      for (int k = 0; k < points; ++k) {
+        const double xi = (k + 0.5) / points;
+        const auto [r, slope] = place(i, xi);
+        const Vec3 drag = drag_density(model_, e, slope.normalized(), r.z());
+        drag_ += l / points * drag.norm();
+        sum += l / points * drag;
+        if (model_.seabed) sum += l / points * seabed_force(model_, state_, 0, i, xi);
+      }
+    }
+    return sum;
+  }
+
+  /// Position and slope within an element of the line.
+  std::pair<Vec3, Vec3> place(int i, double x) const {
+    const auto at = [&](int node, int offset) { return Vec3(Eigen::Map<const Vec3>(&state_.q[model_.dof(0, node) + offset])); };
+    const double l = model_.element.length[line_.first_element + i];
+    const Vec3 a = at(i, 0), b = at(i + 1, 0), chord = (b - a) / l;
+    if (line_.family == Family::bar) return {a + x * (b - a), chord};
+    const Vec3 p = at(i, 3), q = at(i + 1, 3);
+    const Vec3 r = a + l * (x * chord + x * (1 - x) * ((1 - x) * (p - chord) - x * (q - chord)));
+    return {r, chord + (1 - x) * (1 - 3 * x) * (p - chord) + x * (3 * x - 2) * (q - chord)};
+  }
+
+  Complaint closed_form() const {
+    if (trial_.known == Known::catenary) return catenary();
+    if (trial_.known == Known::hanging) return hanging();
+    return std::nullopt;
+  }
+
+  Complaint catenary() const {
+    const double w = model_.element.weight[0], L = line_.length, EA = model_.element.EA[0], l = L / line_.elements;
+    const Vec3 from = model_.points[line_.from].position, chord = model_.points[line_.to].position - from;
+    const CatenarySegment whole{L, EA, -w * Vec3::UnitZ(), Vec3::Zero()};
+    const EndForce exact = solve_end_force({whole}, chord);
+    const Vec3 F = observe_line(model_, state_, 0).force_from;
+    const double order = line_.family == Family::bar ? 2.0 : 4.0, H = exact.force.head<2>().norm();
+    const double turn = std::abs(w) * l / H;  // of the line within an element at its lowest point
+    if (!trial_.degenerate && turn < 0.5) {
+      const double gap = (catenary_span(whole, F, L) - chord).norm(),
+                   allowed = L * (1e-7 + std::pow(turn, order)) + line_.nodes * unbalanced() * catenary_compliance(whole, F, L).norm();
+      if (gap > allowed) return fmt::format("misses the catenary by {:.2e} m of {:.2e} m allowed", gap, allowed);
+    }
+    const double error = (F - exact.force).norm();
+    // A bight that turns within an element leaves the weight of that element open.
+    if (turn >= 0.5 && error > 2.0 * std::abs(w) * l) return fmt::format("end force off by {:.3g} weights of an element", error / std::abs(w) / l);
+    return energy(whole, exact.force, from, chord);
+  }
+
+  Complaint energy(const CatenarySegment& whole, const Vec3& F0, const Vec3& from, const Vec3& chord) const {
+    constexpr int panels = 20000;
+    double dual = 0.0;
+    for (int k = 0; k < panels; ++k) {
+      const double T = (F0 - (k + 0.5) / panels * whole.length * whole.load).norm();
+      dual += whole.length / panels * (T + 0.5 * T * T / whole.EA);
+    }
+    const double w = -whole.load.z(), l = whole.length / line_.elements;
+    const double exact = (F0 - whole.length * whole.load).dot(chord) - dual + w * whole.length * from.z();
+    const Energies found = observe_energies(model_, state_);
+    const double difference = found.axial + found.potential - exact;
+    const double allowed =
+        1e-7 * (std::abs(w) * whole.length * (whole.length + chord.norm() + std::abs(from.z())) + found.axial) + 4.0 * std::abs(w) * l * l;
+    if (std::abs(difference) <= allowed) return std::nullopt;
+    return fmt::format("energy off by {:.2e} J of {:.2e} J allowed", difference, allowed);
+  }
+
+  Complaint hanging() const {
+    const double w = model_.element.weight[0], L = line_.length, EA = model_.element.EA[0];
+    const double body = model_.bodies.empty() ? 0.0 : model_.bodies[0].wet_weight, top = w * L + body;
+    const LineResult found = observe_line(model_, state_, 0);
+    const double tension = line_.from_free ? found.tension_to : found.tension_from;
+    if (std::abs(tension - std::abs(top)) > 1e-8 * std::abs(top) + line_.nodes * unbalanced())
+      return fmt::format("top tension {:.8g} N instead of {:.8g} N", tension, std::abs(top));
+    const double sign = top > 0.0 ? -1.0 : 1.0, reach = L + (std::abs(body) * L + 0.5 * std::abs(w) * L * L) / EA;
+    const int end = line_.from_free ? 0 : line_.nodes - 1;
+    const Vec3 r = Eigen::Map<const Vec3>(&state_.q[model_.dof(0, end)]);
+    const double off = (r - model_.points[line_.from_free ? line_.to : line_.from].position - sign * reach * Vec3::UnitZ()).norm();
+    if (off <= 1e-6 * L) return std::nullopt;
+    return fmt::format("free end {:.2e} m off", off);
+  }
+
+  const Trial& trial_;
+  const Model& model_;
+  const State& state_;
+  const Line& line_;
+  std::vector<double> residual_;
+  double reference_ = 0.0;
+  mutable double drag_ = 0.0;  // N, along the last integral
+  Vec3 reactions_ = Vec3::Zero();
+};
+
+struct TrialOutcome {
+  bool converged = false;
+  bool loose = false;                // converged to 1e-6 of the largest reaction only, and the report says so
+  std::optional<std::string> wrong;  // converged, but not an answer
+  int factorizations = 0;
+  double seconds = 0.0;  // processor time of solve_static
+  StaticReport report;
+};
+
+inline double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Solves a scene from nothing and checks the answer.
+inline TrialOutcome run_trial(const Trial& trial) {
+  const Model model = build_model(trial.scene);
+  const Assembler assembler(model);
+  TrialOutcome outcome;
+  State state;
+  const double begin = processor_seconds();
+  outcome.report = solve_static(assembler, {}, state);
+  outcome.seconds = processor_seconds() - begin;
+  outcome.converged = outcome.report.converged;
+  outcome.factorizations = outcome.report.iterations;
+  outcome.loose = outcome.converged && outcome.report.residual > 1e-10 && outcome.report.stages.back().find("looser tolerance") != std::string::npos;
+  if (outcome.converged) outcome.wrong = TrialCheck(trial, model, state).complaint(outcome.loose);
+  return outcome;
+}
+
+}  // namespace hawser::bench

@@ -1,0 +1,28 @@
+// Folds and knots, and shapes that lead out of them and of equilibria that are not stable.
+#pragma once
+
+#include <optional>
+
+#include "assembly/model.hpp"
+#include "assembly/state.hpp"
+
+namespace hawser {
+
+/// Bows every line sideways, across its chord and along its load where there is no bed, along the bed where there is one.
+void bow_sideways(const Model& model, State& state);
+
+/// A line turns back within an element.
+bool folded(const Model& model, const State& state);
+
+/// A place where the line turns back within an element although it is taut there: a loop that the mesh cannot follow. (A line that hangs in two
+/// legs folds too, but carries no more there than the weight of some elements.)
+struct Knot {
+  int line = 0;
+  double s = 0.0, tension = 0.0;  // m, N
+};
+std::optional<Knot> find_knot(const Model& model, const State& state);
+
+/// The straight start as a loop of about the right length: for lines that would hang in two legs side by side.
+State open_start(const Model& model);
+
+}  // namespace hawser
