@@ -30,11 +30,11 @@ struct StaticOptions {
 
 /// Where and why a solve failed, and what to try (exit code 3 or 4 prints it).
 struct Failure {
-  std::string what;           // one sentence
-  std::string line;           // name of the line
-  double s = 0.0;             // m, arc length of the worst node
-  std::string cause, remedy;  // likely cause; what to try
-  std::string stage, kept;    // statics: the stage that this is said of; what is left in the state
+  std::string what;                   // one sentence
+  std::string line;                   // name of the line
+  double s = 0.0;                     // m, arc length of the worst node
+  std::string cause, remedy;          // likely cause; what to try
+  std::string stage = {}, kept = {};  // statics: the stage that this is said of; what is left in the state
 };
 
 struct StaticReport {
