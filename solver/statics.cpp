@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "assembly/observables.hpp"
 #include "solver/relaxation.hpp"
@@ -36,10 +37,15 @@ double longest_line(const Model& model) {
   return longest;
 }
 
+/// The scale of forces: the largest load of a line, or where nothing loads them what buckles one between clamps, (2 pi/L)^2 EI.
 double largest_load(const Model& model) {
-  double largest = 0.0;
-  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) largest = std::max(largest, load_scale(model, line));
-  return largest;
+  double largest = 0.0, buckling = 0.0;
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
+    largest = std::max(largest, load_scale(model, line));
+    const Line& l = model.lines[line];
+    buckling = std::max(buckling, model.element.EI[l.first_element] * std::pow(2.0 * std::numbers::pi / l.length, 2));
+  }
+  return largest > 0.0 ? largest : buckling;
 }
 
 /// How one Newton is run.
