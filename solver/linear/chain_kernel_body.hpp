@@ -143,8 +143,10 @@ struct Elimination {
   }
   HAWSER_INLINE void advance() {
     node.watch.end_node();
-    if constexpr (Side == Front::right) prefetch<24 * At::block, false>(values + fetched_ahead_to_factorize * At::step);
-    prefetch<24 * At::block, true>(factors + fetched_ahead_to_factorize * At::step);
+    if constexpr (Side == Front::right) {
+      prefetch<24 * At::block, false>(values + fetched_ahead_to_factorize * At::step);
+      prefetch<24 * At::block, true>(factors + fetched_ahead_to_factorize * At::step);
+    }
     values += At::step, factors += At::step, next_values += At::step, next_factors += At::step;
   }
   /// The right front leaves its share of the middle node aside, so that the left one need not wait.
