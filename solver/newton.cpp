@@ -52,6 +52,18 @@ double damped_advance(NewtonSystem& system, double factor, double residual_befor
   return residual;
 }
 
+/// Factorizes and solves at the present point; false, with the status, where there is no increment.
+bool increment_found(NewtonSystem& system, double floor, IncrementSize& size, NewtonReport& report) {
+  ++report.factorizations;
+  if (!system.solve(floor)) {
+    report.status = NewtonStatus::no_increment;
+    return false;
+  }
+  size = system.increment();
+  if (!std::isfinite(size.scaled)) report.status = NewtonStatus::not_finite;
+  return std::isfinite(size.scaled);
+}
+
 /// Whether the present point ends the iteration, after a step of this size.
 std::optional<NewtonStatus> settled(NewtonSystem& system, const NewtonOptions& options, Rounding& rounding, double residual, bool full,
                                     const IncrementSize& size) {
@@ -97,16 +109,8 @@ NewtonReport guarded_newton(NewtonSystem& system, const NewtonOptions& options) 
   report.residuals.push_back(report.residual);
   const auto raise = [&] { last_floor = floor = floor > 0.0 ? std::min(floor / floor_factor, options.floor) : last_floor; };
   while (report.factorizations < options.max_iterations) {
-    ++report.factorizations;
-    if (!system.solve(floor)) {
-      report.status = NewtonStatus::no_increment;
-      return report;
-    }
-    const IncrementSize size = system.increment();
-    if (!std::isfinite(size.scaled)) {
-      report.status = NewtonStatus::not_finite;
-      return report;
-    }
+    IncrementSize size;
+    if (!increment_found(system, floor, size, report)) return report;
     const bool at_rounding = report.residual <= roundoff_margin * system.roundoff();
     const double slope = system.work(), cap = capped_step(size, options.length);
     if (!(slope < 0.0) && !at_rounding) {
@@ -145,16 +149,8 @@ NewtonReport newton(NewtonSystem& system, const NewtonOptions& options) {
   report.residual = system.residual();
   report.residuals.push_back(report.residual);
   while (report.factorizations < options.max_iterations) {
-    ++report.factorizations;
-    if (!system.solve(floor)) {
-      report.status = NewtonStatus::no_increment;
-      return report;
-    }
-    const IncrementSize size = system.increment();
-    if (!std::isfinite(size.scaled)) {
-      report.status = NewtonStatus::not_finite;
-      return report;
-    }
+    IncrementSize size;
+    if (!increment_found(system, floor, size, report)) return report;
     const double factor = capped_step(size, options.length);
     if (options.inexact_matrix && floor == 0.0) {
       report.residual = damped_advance(system, factor, report.residual);

@@ -16,18 +16,6 @@
 namespace hawser::test {
 namespace {
 
-Vec3 position(const StaticSolution& s, const std::string& point) {
-  for (std::size_t i = 0; i < s.model->points.size(); ++i)
-    if (s.model->points[i].name == point) return observe_points(*s.model, s.state)[i].position;
-  return Vec3::Constant(NAN);
-}
-
-Vec3 force(const StaticSolution& s, const std::string& point) {
-  for (std::size_t i = 0; i < s.model->points.size(); ++i)
-    if (s.model->points[i].name == point) return observe_points(*s.model, s.state)[i].force;
-  return Vec3::Constant(NAN);
-}
-
 struct InSeries {
   const char* name;
   double EI;

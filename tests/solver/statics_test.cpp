@@ -7,33 +7,13 @@
 
 #include "solver/newton.hpp"
 #include "solver/static_system.hpp"
+#include "tests/support/deep_span.hpp"
 #include "tests/support/reference_case.hpp"
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/static_solution.hpp"
 
 namespace hawser::test {
 namespace {
-
-SceneBuilder deep(int elements, double EI = 0.0, double L = 5000.0) {
-  LineType type = u40();
-  type.EI = EI;
-  return SceneBuilder().type(type).fixed("bottom", {0, 0, -3000}).fixed("top", {3000, 0, 0}).line("bottom", "top").section("U40", L, elements);
-}
-
-StaticReport solve(const Model& model, State& state, StaticStart start = StaticStart::catenary, LinearSolverKind kind = LinearSolverKind::automatic) {
-  const Assembler assembler(model);
-  StaticOptions options;
-  options.start = start;
-  options.linear_solver = kind;
-  return solve_static(assembler, options, state);
-}
-
-double largest_distance(const Model& model, const State& a, const State& b) {
-  double largest = 0.0;
-  for (int i = 0; i < model.lines[0].nodes; ++i)
-    largest = std::max(largest, (Eigen::Map<const Vec3>(&a.q[model.dof(0, i)]) - Eigen::Map<const Vec3>(&b.q[model.dof(0, i)])).norm());
-  return largest;
-}
 
 TEST(Statics, DeepCatenaryTakesThreeFactorizationsOrFewerAndMeetsItsEndTensionsTo1e9) {
   const ReferenceCase reference("static_catenary_deep5000_sceneS1");

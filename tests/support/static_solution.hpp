@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "assembly/assembler.hpp"
@@ -42,6 +43,16 @@ struct StaticSolution {
   StaticReport report;
   LineResult line;
 };
+
+/// Of a point of the scene, by its name.
+inline PointResult point_of(const StaticSolution& s, const std::string& name) {
+  for (std::size_t i = 0; i < s.model->points.size(); ++i)
+    if (s.model->points[i].name == name) return observe_points(*s.model, s.state)[i];
+  ADD_FAILURE() << "no point " << name;
+  return {};
+}
+inline Vec3 position(const StaticSolution& s, const std::string& point) { return point_of(s, point).position; }
+inline Vec3 force(const StaticSolution& s, const std::string& point) { return point_of(s, point).force; }
 
 /// Values of a quantity and a bound on their numerical error.
 struct Numbers {
