@@ -12,7 +12,7 @@
 
 namespace hawser {
 
-const ChainKernel baseline_chain_kernel{factorize, factorize_run, factorize_middle, forward, forward_run, solve_middle, backward, "base"};
+const ChainKernel baseline_chain_kernel{factorize, eliminate_runs, factorize_middle, forward, solve_middle, backward, "base"};
 
 void PivotWatch::add(const PivotWatch& other) {
   smallest = std::min(smallest, other.smallest);

@@ -34,26 +34,26 @@ struct PivotWatch {
 
 enum class Front { left, right, both };
 
-/// Consecutive nodes of one front, counted from its end of the chain: 0 is the end node. The middle node is not among them.
+/// The next nodes of a front, counted from its end of the chain: 0 is the end node. The middle node is not among them.
 struct FrontRun {
-  Front front;  // left or right
-  int first, count;
+  int first = 0, count = 0;
+  const double* values = nullptr;  // of the node `first`
+  double given = 0.0;              // the kernel's, from run to run
 };
 
 struct ChainKernel {
   /// The front or fronts up to the middle node, which `factorize_middle` completes.
   void (*factorize)(int block, int nodes, const double* values, double* factors, Front front, PivotWatch& watch);
 
-  /// A part of a front, for values that are made as they are eliminated: runs follow one another from `first` = 0. `values` are those the run
-  /// meets first: of the node `run.first` (left), of its neighbour towards the middle (right). `given` goes from run to run.
-  void (*factorize_run)(int block, int nodes, FrontRun run, const double* values, double* factors, double& given, PivotWatch& watch);
+  /// A run of either front, for values that are made as they are eliminated, and the reduction of their b; a count may be zero. The runs move on:
+  /// `first` behind their nodes, `count` to zero.
+  void (*eliminate_runs)(int block, int nodes, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch);
 
   /// `values`: of the middle node.
   void (*factorize_middle)(int block, int nodes, const double* values, double* factors, PivotWatch& watch);
 
   /// b becomes the solution: forward with both fronts, the middle, backward with both fronts.
   void (*forward)(int block, int nodes, const double* factors, double* b, Front front);
-  void (*forward_run)(int block, int nodes, FrontRun run, const double* factors, double* b);
   void (*solve_middle)(int block, int nodes, const double* factors, double* b);
   void (*backward)(int block, int nodes, const double* factors, double* b, Front front);
 

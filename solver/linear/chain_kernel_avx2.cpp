@@ -9,7 +9,7 @@
 
 namespace hawser {
 
-const ChainKernel avx2_chain_kernel{factorize, factorize_run, factorize_middle, forward, forward_run, solve_middle, backward, "avx2"};
+const ChainKernel avx2_chain_kernel{factorize, eliminate_runs, factorize_middle, forward, solve_middle, backward, "avx2"};
 
 }  // namespace hawser
 #endif

@@ -49,7 +49,7 @@ struct Watch {
     note_pivots(p, p);
     negative += Two::Rows{0, -(p < 0.0)};
   }
-  /// The first node of a run: its D has been met before.
+  /// The D of the front's node has been met before.
   HAWSER_INLINE void go_on(double given_before) {
     start();
     given.set_all(1.0);
@@ -120,51 +120,40 @@ struct Node {
 
 template <int B, Front Side>
 struct Elimination {
-  using At = Blocks<B, Side>;
-  const double* values;
-  double* factors;
-  const double* next_values;
-  double* next_factors;
+  static constexpr int block = B * B;
+  const double *values, *next_values;  // of the front's node and of the next one
+  double *factors, *next_factors;
   Node<B> node;
 
   HAWSER_INLINE void stand_at(const double* values_here, double* factors_here) {
     values = values_here, factors = factors_here;
-    next_values = values + At::next, next_factors = factors + At::next;
-  }
-  /// Takes over the D of the front's first node.
-  HAWSER_INLINE void start() {
-    node.watch.start();
-    for_each_pair<B>([&] HAWSER_PAIR {
-      constexpr int from = At::diagonal + 2 * B * pair.value;
-      PairOf<B, pair.value> d;
-      d.load_values(values + from), d.store(factors + from);
-      d.add_squares_to(node.watch.given);
-    });
+    next_values = inwards<Side>(values, 3 * block), next_factors = inwards<Side>(factors, 3 * block);
   }
   HAWSER_INLINE void advance() {
     node.watch.end_node();
     if constexpr (Side == Front::right) {
-      prefetch<24 * At::block, false>(values + fetched_ahead_to_factorize * At::step);
-      prefetch<24 * At::block, true>(factors + fetched_ahead_to_factorize * At::step);
+      constexpr int ahead = 3 * block * (1 + fetched_ahead_to_factorize);
+      prefetch<24 * block, false>(values - ahead), prefetch<24 * block, true>(factors - ahead);
     }
-    values += At::step, factors += At::step, next_values += At::step, next_factors += At::step;
+    values = inwards<Side>(values, 3 * block), factors = inwards<Side>(factors, 3 * block);
+    next_values = inwards<Side>(next_values, 3 * block), next_factors = inwards<Side>(next_factors, 3 * block);
   }
   /// The right front leaves its share of the middle node aside, so that the left one need not wait.
   HAWSER_INLINE void meet(int nodes, double* chain_factors) {
     static constexpr double nothing[B * B] = {};
-    if constexpr (Side == Front::right) next_values = nothing, next_factors = chain_factors + At::left_at_middle(nodes);
+    if constexpr (Side == Front::right) next_values = nothing, next_factors = chain_factors + left_at_middle<B>(nodes);
   }
 
   template <int P>
   HAWSER_INLINE void reduce() {
-    node.template reduce<P, true>(factors + At::diagonal, values + At::column, factors + At::column);
+    node.template reduce<P, true>(factors, inwards<Side>(values, 2 * block), inwards<Side>(factors, 2 * block));
   }
   // Columns 2P and 2P + 1 of Y_k and of what is left of the next node's D.
   template <int P>
   HAWSER_INLINE void update() {
     constexpr int first = 2 * B * P;
     PairOf<B, P> y, d;
-    y.load_values(values + At::row + first), d.load_values(next_values + first);
+    y.load_values(inwards<Side>(values, block) + first), d.load_values(next_values + first);
     y.add_squares_to(node.watch.given), d.add_squares_to(node.watch.given_next);
     HAWSER_UNROLL for (int i = 0; i < B; ++i) {
       const auto u = y.row(i);
@@ -172,68 +161,89 @@ struct Elimination {
       d.subtract(node.x[i], u);
     }
     y.add_squares_to(node.watch.worked);
-    y.store(factors + At::row + first), d.store(next_factors + first);
+    y.store(inwards<Side>(factors, block) + first), d.store(next_factors + first);
   }
-  HAWSER_INLINE void eliminate_node() {
+  HAWSER_INLINE void reduce_node() {
     for_each_pair<B>([&] HAWSER_PAIR { reduce<pair.value>(); });
+  }
+  HAWSER_INLINE void update_next() {
     for_each_pair<B>([&] HAWSER_PAIR { update<pair.value>(); });
     advance();
   }
 };
 
+// Where a front begins and ends a run.
 template <int B, Front Side>
-void factorize_part(int nodes, FrontRun run, const double* values, double* factors, double& given, PivotWatch& watch) {
-  using At = Blocks<B, Side>;
-  const int all = At::nodes_of(nodes), end = run.first + run.count;
-  if (run.count == 0) return;
+HAWSER_INLINE double* begin(int nodes, FrontRun& run, double* factors) {
+  double* at = factors + 3L * B * B * node_of<Side>(nodes, run.first);
+  if (run.first > 0) return at;
+  typename Panel<B, 2>::Squares given;
+  given.set_all(0.0);
+  for_each_pair<B>([&] HAWSER_PAIR {
+    constexpr int from = 2 * B * pair.value;
+    PairOf<B, pair.value> d;
+    d.load_values(run.values + from), d.store(at + from);
+    d.add_squares_to(given);
+  });
+  run.given = given.sum();
+  return at;
+}
+template <int B, Front Side>
+HAWSER_INLINE void end(FrontRun& run, int count, double given) {
+  run.first += count, run.count -= count, run.given = given;
+  run.values = inwards<Side>(run.values, 3L * B * B * count);
+}
+
+template <int B, Front Side>
+void factorize_front(int nodes, FrontRun& run, double* factors, PivotWatch& watch) {
+  const int count = run.count, met = nodes_of<Side>(nodes) - run.first;
+  if (count == 0) return;
   Elimination<B, Side> front;
-  front.stand_at(values, factors + At::first(nodes) + static_cast<long>(At::step) * run.first);
-  if (run.first == 0)
-    front.start();
-  else
-    front.node.watch.go_on(given);
-  for (int k = run.first; k < end; ++k) {
-    if (k + 1 == all) front.meet(nodes, factors);
-    front.eliminate_node();
+  front.stand_at(run.values, begin<B, Side>(nodes, run, factors));
+  front.node.watch.go_on(run.given);
+  for (int k = 1; k <= count; ++k) {
+    if (k == met) front.meet(nodes, factors);
+    front.reduce_node();
+    front.update_next();
   }
-  given = front.node.watch.given.sum();
+  end<B, Side>(run, count, front.node.watch.given.sum());
   front.node.watch.add_to(watch);
 }
 
-template <int B, Front Side>
-void factorize_front(int nodes, const double* values, double* factors, PivotWatch& watch) {
-  using At = Blocks<B, Side>;
-  double given = 0.0;
-  factorize_part<B, Side>(nodes, {Side, 0, At::nodes_of(nodes)}, values + At::first(nodes), factors, given, watch);
-}
-
+/// The next `count` nodes of both fronts, in turn.
 template <int B>
-void factorize_both(int nodes, const double* values, double* factors, PivotWatch& watch) {
-  const int pairs = Blocks<B, Front::right>::nodes_of(nodes);
-  if (pairs == 0) return factorize_front<B, Front::left>(nodes, values, factors, watch);
+void factorize_in_turn(int nodes, int count, FrontRun& left_run, FrontRun& right_run, double* factors, PivotWatch& watch) {
+  const int met = nodes_of<Front::right>(nodes) - right_run.first;
   Elimination<B, Front::left> left;
   Elimination<B, Front::right> right;
-  const auto start = [&]<Front Side>(Elimination<B, Side> & front) __attribute__((always_inline)) {
-    constexpr auto first = Blocks<B, Side>::first;
-    front.stand_at(values + first(nodes), factors + first(nodes));
-    front.start();
-  };
-  start(left), start(right);
-  for (int k = 0; k < pairs; ++k) {
-    if (k + 1 == pairs) right.meet(nodes, factors);
+  left.stand_at(left_run.values, begin<B, Front::left>(nodes, left_run, factors));
+  right.stand_at(right_run.values, begin<B, Front::right>(nodes, right_run, factors));
+  left.node.watch.go_on(left_run.given), right.node.watch.go_on(right_run.given);
+  for (int k = 1; k <= count; ++k) {
+    if (k == met) right.meet(nodes, factors);
     for_each_pair<B>([&] HAWSER_PAIR { left.template reduce<pair.value>(), right.template reduce<pair.value>(); });
     for_each_pair<B>([&] HAWSER_PAIR { left.template update<pair.value>(), right.template update<pair.value>(); });
     left.advance(), right.advance();
   }
-  if (pairs < Blocks<B, Front::left>::nodes_of(nodes)) left.eliminate_node();
+  end<B, Front::left>(left_run, count, left.node.watch.given.sum()), end<B, Front::right>(right_run, count, right.node.watch.given.sum());
   left.node.watch.add_to(watch), right.node.watch.add_to(watch);
+}
+
+// With 6 unknowns a node one front already fills the processor's window of instructions: in turn is no faster.
+template <int B>
+void factorize_runs(int nodes, FrontRun& left, FrontRun& right, double* factors, PivotWatch& watch) {
+  const int shared = left.count < right.count ? left.count : right.count;
+  if constexpr (B == 3) {
+    if (shared > 0) factorize_in_turn<B>(nodes, shared, left, right, factors, watch);
+  }
+  factorize_front<B, Front::left>(nodes, left, factors, watch);
+  factorize_front<B, Front::right>(nodes, right, factors, watch);
 }
 
 template <int B>
 void factorize_middle_node(int nodes, const double* values, double* factors, PivotWatch& watch) {
-  using Left = Blocks<B, Front::left>;
-  double* middle = factors + Left::middle(nodes);
-  const double* from_right = factors + Left::left_at_middle(nodes);
+  double* middle = factors + at_middle<B>(nodes);
+  const double* from_right = factors + left_at_middle<B>(nodes);
   Node<B> node;
   node.watch.start();
   for_each_pair<B>([&] HAWSER_PAIR {
@@ -250,37 +260,25 @@ void factorize_middle_node(int nodes, const double* values, double* factors, Piv
   for (int i = 0; i < B; ++i) watch.not_finite += 0.0 * middle[Panel<B, 2>::place(i, i)];  // a NaN anywhere before has come to here
 }
 
-// With 6 unknowns a node one front already fills the processor's window of instructions: both at once are no faster.
 template <int B>
 void factorize_any(int nodes, const double* values, double* factors, Front front, PivotWatch& watch) {
-  if constexpr (B == 3) {
-    if (front == Front::both) return factorize_both<B>(nodes, values, factors, watch);
-  }
-  if (front != Front::right) factorize_front<B, Front::left>(nodes, values, factors, watch);
-  if (front != Front::left) factorize_front<B, Front::right>(nodes, values, factors, watch);
+  FrontRun left{0, front == Front::right ? 0 : nodes_of<Front::left>(nodes), values};
+  FrontRun right{0, front == Front::left ? 0 : nodes_of<Front::right>(nodes), values + 3L * B * B * (nodes - 1)};
+  factorize_runs<B>(nodes, left, right, factors, watch);
 }
 
 template <int B>
-void factorize_run_any(int nodes, FrontRun run, const double* values, double* factors, double& given, PivotWatch& watch) {
-  if (run.front == Front::left)
-    factorize_part<B, Front::left>(nodes, run, values, factors, given, watch);
-  else
-    factorize_part<B, Front::right>(nodes, run, values, factors, given, watch);
-}
-
-template <int B>
-void forward_run_any(int nodes, FrontRun run, const double* factors, double* b) {
-  if (run.front == Front::left)
-    forward_part<B, Front::left>(nodes, run, factors, b);
-  else
-    forward_part<B, Front::right>(nodes, run, factors, b);
+void eliminate_runs_any(int nodes, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch) {
+  const FrontRun left_run = left, right_run = right;
+  factorize_runs<B>(nodes, left, right, factors, watch);
+  forward_runs<B>(nodes, left_run, right_run, factors, b);
 }
 
 template <int B>
 void forward_any(int nodes, const double* factors, double* b, Front front) {
-  if (front == Front::both) forward_both<B>(nodes, factors, b);
-  if (front == Front::left) forward_front<B, Front::left>(nodes, factors, b);
-  if (front == Front::right) forward_front<B, Front::right>(nodes, factors, b);
+  const FrontRun left{0, front == Front::right ? 0 : nodes_of<Front::left>(nodes), nullptr};
+  const FrontRun right{0, front == Front::left ? 0 : nodes_of<Front::right>(nodes), nullptr};
+  forward_runs<B>(nodes, left, right, factors, b);
 }
 
 template <int B>
@@ -294,8 +292,8 @@ void factorize(int block, int nodes, const double* values, double* factors, Fron
   block == 3 ? factorize_any<3>(nodes, values, factors, front, watch) : factorize_any<6>(nodes, values, factors, front, watch);
 }
 
-void factorize_run(int block, int nodes, FrontRun run, const double* values, double* factors, double& given, PivotWatch& watch) {
-  block == 3 ? factorize_run_any<3>(nodes, run, values, factors, given, watch) : factorize_run_any<6>(nodes, run, values, factors, given, watch);
+void eliminate_runs(int block, int nodes, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch) {
+  block == 3 ? eliminate_runs_any<3>(nodes, left, right, factors, b, watch) : eliminate_runs_any<6>(nodes, left, right, factors, b, watch);
 }
 
 void factorize_middle(int block, int nodes, const double* values, double* factors, PivotWatch& watch) {
@@ -304,10 +302,6 @@ void factorize_middle(int block, int nodes, const double* values, double* factor
 
 void forward(int block, int nodes, const double* factors, double* b, Front front) {
   block == 3 ? forward_any<3>(nodes, factors, b, front) : forward_any<6>(nodes, factors, b, front);
-}
-
-void forward_run(int block, int nodes, FrontRun run, const double* factors, double* b) {
-  block == 3 ? forward_run_any<3>(nodes, run, factors, b) : forward_run_any<6>(nodes, run, factors, b);
 }
 
 void solve_middle(int block, int nodes, const double* factors, double* b) {

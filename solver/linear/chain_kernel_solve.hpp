@@ -8,20 +8,30 @@ namespace hawser {
 
 namespace {
 
-// Where the blocks of a front's node lie, from the first of the four it works on: the right front meets them in the opposite order.
-template <int B, Front Side>
-struct Blocks {
-  static constexpr int block = B * B;
-  static constexpr bool left = Side == Front::left;
-  static constexpr int diagonal = left ? 0 : 3 * block, row = left ? block : 2 * block, column = left ? 2 * block : block,
-                       next = left ? 3 * block : 0;
-  static constexpr int step = left ? 3 * block : -3 * block;
+// Places in values and factors are those of a node's D. A front counts blocks from there towards the middle: Y_k after one, X_k after two, the
+// next node's D after three; in memory the right front meets them backwards.
+template <Front Side>
+constexpr int nodes_of(int nodes) {
+  return Side == Front::left ? nodes / 2 : nodes - 1 - nodes / 2;
+}
+/// The front's node k, counted from its end.
+template <Front Side>
+constexpr int node_of(int nodes, int k) {
+  return Side == Front::left ? k : nodes - 1 - k;
+}
+template <int B>
+constexpr long at_middle(int nodes) {
+  return 3L * B * B * (nodes / 2);
+}
+template <int B>
+constexpr long left_at_middle(int nodes) {
+  return 3L * B * B * (nodes - 1) + B * B;
+}
 
-  static constexpr int nodes_of(int nodes) { return left ? nodes / 2 : nodes - 1 - nodes / 2; }
-  static constexpr long first(int nodes) { return left ? 0 : 3L * block * (nodes - 2); }
-  static constexpr long middle(int nodes) { return 3L * block * (nodes / 2); }
-  static constexpr long left_at_middle(int nodes) { return 3L * block * (nodes - 1) + block; }
-};
+template <Front Side, class T>
+HAWSER_INLINE T* inwards(T* p, long n) {
+  return Side == Front::left ? p + n : p - n;
+}
 
 // Processors fetch ahead by themselves of loads that go up, hardly of those that go down. Measured: nodes ahead.
 constexpr int fetched_ahead_to_factorize = 3, fetched_ahead_to_solve = 8;
@@ -51,9 +61,9 @@ template <int B, Front Side>
 struct Substitution {
   static constexpr bool left = Side == Front::left;
   static constexpr int block = B * B, towards_middle = left ? 1 : -1;
-  const double* diagonal;
-  double* b;
-  double z[B];  // of the node before
+  const double* diagonal = nullptr;
+  double* b = nullptr;
+  double z[B] = {};  // of the node before
 
   HAWSER_INLINE void start_at(int node, const double* factors, double* chain_b) {
     diagonal = factors + 3L * block * node, b = chain_b + static_cast<long>(B) * node;
@@ -63,11 +73,13 @@ struct Substitution {
   }
   HAWSER_INLINE void move(int nodes) { diagonal += 3 * block * nodes, b += B * nodes; }
 
-  template <bool Outermost>
   HAWSER_INLINE void forward() {
     Column<B> c;
     c.load(b);
-    if constexpr (!Outermost) subtract_product<B>(c, diagonal - towards_middle * block, z);
+    subtract_product<B>(c, diagonal - towards_middle * block, z);
+    end_forward(c);
+  }
+  HAWSER_INLINE void end_forward(const Column<B>& c) {
     HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = c.at(i);
     solve_lower<B>(diagonal, z);
     HAWSER_UNROLL for (int i = 0; i < B; ++i) b[i] = z[i];
@@ -84,14 +96,18 @@ struct Substitution {
     fetch_ahead(-towards_middle);
     move(-towards_middle);
   }
-  HAWSER_INLINE void start_forward(int nodes, const double* factors, double* chain_b) {
-    start_at(left ? 0 : nodes - 1, factors, chain_b);
-    forward<true>();
-  }
-  /// At the front's node k, after those before it.
-  HAWSER_INLINE void go_on_forward(int nodes, int k, const double* factors, double* chain_b) {
-    start_at(left ? k : nodes - 1 - k, factors, chain_b);
-    HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = b[i - towards_middle * B];
+  /// Before the run's first node, after which it goes on; an end node is met here.
+  HAWSER_INLINE void begin_forward(int nodes, FrontRun& run, const double* factors, double* chain_b) {
+    if (run.count == 0) return;
+    start_at(node_of<Side>(nodes, run.first), factors, chain_b);
+    if (run.first > 0) {
+      HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = b[i - towards_middle * B];
+    } else {
+      Column<B> c;
+      c.load(b);
+      end_forward(c);
+      --run.count;
+    }
   }
   HAWSER_INLINE void start_backward(int nodes, const double* factors, double* chain_b) {
     start_at(nodes / 2, factors, chain_b);
@@ -100,32 +116,15 @@ struct Substitution {
   }
 };
 
-template <int B, Front Side>
-void forward_part(int nodes, FrontRun run, const double* factors, double* b) {
-  if (run.count == 0) return;
-  Substitution<B, Side> front;
-  int k = run.first;
-  if (k == 0)
-    front.start_forward(nodes, factors, b), ++k;
-  else
-    front.go_on_forward(nodes, k, factors, b);
-  for (; k < run.first + run.count; ++k) front.template forward<false>();
-}
-
-template <int B, Front Side>
-void forward_front(int nodes, const double* factors, double* b) {
-  forward_part<B, Side>(nodes, {Side, 0, Blocks<B, Side>::nodes_of(nodes)}, factors, b);
-}
-
+/// Both fronts in turn as far as both go.
 template <int B>
-void forward_both(int nodes, const double* factors, double* b) {
-  const int pairs = Blocks<B, Front::right>::nodes_of(nodes);
-  if (pairs == 0) return forward_front<B, Front::left>(nodes, factors, b);
+void forward_runs(int nodes, FrontRun left_run, FrontRun right_run, const double* factors, double* b) {
   Substitution<B, Front::left> left;
   Substitution<B, Front::right> right;
-  left.start_forward(nodes, factors, b), right.start_forward(nodes, factors, b);
-  for (int k = 1; k < pairs; ++k) left.template forward<false>(), right.template forward<false>();
-  if (pairs < Blocks<B, Front::left>::nodes_of(nodes)) left.template forward<false>();
+  left.begin_forward(nodes, left_run, factors, b), right.begin_forward(nodes, right_run, factors, b);
+  for (; left_run.count > 0 && right_run.count > 0; --left_run.count, --right_run.count) left.forward(), right.forward();
+  for (; left_run.count > 0; --left_run.count) left.forward();
+  for (; right_run.count > 0; --right_run.count) right.forward();
 }
 
 template <int B>
@@ -146,17 +145,17 @@ template <int B, Front Side>
 void backward_front(int nodes, const double* factors, double* b) {
   Substitution<B, Side> front;
   front.start_backward(nodes, factors, b);
-  for (int k = Blocks<B, Side>::nodes_of(nodes); k > 0; --k) front.backward();
+  for (int k = nodes_of<Side>(nodes); k > 0; --k) front.backward();
 }
 
 template <int B>
 void backward_both(int nodes, const double* factors, double* b) {
-  const int pairs = Blocks<B, Front::right>::nodes_of(nodes);
+  const int pairs = nodes_of<Front::right>(nodes);
   Substitution<B, Front::left> left;
   Substitution<B, Front::right> right;
   left.start_backward(nodes, factors, b), right.start_backward(nodes, factors, b);
   for (int k = 0; k < pairs; ++k) left.backward(), right.backward();
-  if (pairs < Blocks<B, Front::left>::nodes_of(nodes)) left.backward();
+  if (pairs < nodes_of<Front::left>(nodes)) left.backward();
 }
 
 }  // namespace

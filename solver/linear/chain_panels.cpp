@@ -23,27 +23,36 @@ void ChainPanels::start(const ChainKernel& kernel, MatrixPanels& panels, int ind
   middle_panel_ = std::min(nodes_ / 2 / panel_elements, last_panel_);
   for (Side* side : {&left_, &right_}) {
     side->values.resize(static_cast<std::size_t>(slots) * node_size_);
-    side->done = 0;
+    side->run = {};
+  }
+  left_.panel = 0;
+  right_.panel = last_panel_;
+}
+
+void ChainPanels::eliminate(Front side, PivotWatch& watch) {
+  for (;;) {
+    const bool left = side != Front::right && left_.panel < middle_panel_, right = side != Front::left && right_.panel > middle_panel_;
+    if (!left && !right) return;
+    FrontRun none, also_none;
+    if (left) make_next_left();
+    if (right) make_next_right();
+    kernel_->eliminate_runs(block_, nodes_, left ? left_.run : none, right ? right_.run : also_none, factors_, b_, watch);
+    if (left) copy_nodes(slot(left_, panel_elements - 1), slot(left_, -1), 1);
   }
 }
 
-void ChainPanels::eliminate(Front side, PivotWatch& watch) { side == Front::left ? eliminate_left(watch) : eliminate_right(watch); }
-
-void ChainPanels::eliminate_left(PivotWatch& watch) {
-  for (int panel = 0; panel < middle_panel_; ++panel) {
-    make(left_, panel);
-    advance(Front::left, first_node_of_panel(panel + 1) - 1, left_, panel, watch);
-    copy_nodes(slot(left_, panel_elements - 1), slot(left_, -1), 1);
-  }
+void ChainPanels::make_next_left() {
+  const int panel = left_.panel++;
+  make(left_, panel);
+  reach(Front::left, first_node_of_panel(panel + 1) - 1, left_, panel);
 }
 
-void ChainPanels::eliminate_right(PivotWatch& watch) {
-  for (int panel = last_panel_; panel > middle_panel_; --panel) {
-    copy_nodes(slot(right_, 0), slot(right_, panel_elements), 2);
-    panels_->make(index_, panel, slot(right_, 0));
-    if (panel < last_panel_) panels_->add_carry(index_, panel, slot(right_, panel_elements));
-    advance(Front::right, nodes_ - 2 - first_node_of_panel(panel), right_, panel, watch);
-  }
+void ChainPanels::make_next_right() {
+  const int panel = right_.panel--;
+  copy_nodes(slot(right_, 0), slot(right_, panel_elements), 2);
+  panels_->make(index_, panel, slot(right_, 0));
+  if (panel < last_panel_) panels_->add_carry(index_, panel, slot(right_, panel_elements));
+  reach(Front::right, nodes_ - 2 - first_node_of_panel(panel), right_, panel);
 }
 
 void ChainPanels::eliminate_middle(PivotWatch& watch) {
@@ -53,8 +62,9 @@ void ChainPanels::eliminate_middle(PivotWatch& watch) {
     copy_nodes(slot(right_, 0), slot(left_, panel_elements), 2);
     panels_->add_carry(index_, panel, slot(left_, panel_elements));
   }
-  advance(Front::left, middle, left_, panel, watch);
-  advance(Front::right, nodes_ - 1 - middle, left_, panel, watch);
+  reach(Front::left, middle, left_, panel);
+  reach(Front::right, nodes_ - 1 - middle, left_, panel);
+  kernel_->eliminate_runs(block_, nodes_, left_.run, right_.run, factors_, b_, watch);
   kernel_->factorize_middle(block_, nodes_, slot(left_, middle - first_node_of_panel(panel)), factors_, watch);
   kernel_->solve_middle(block_, nodes_, factors_, b_);
 }
@@ -68,13 +78,11 @@ void ChainPanels::make(Side& side, int panel) {
   if (panel > 0) panels_->add_carry(index_, panel - 1, slot(side, 0));
 }
 
-void ChainPanels::advance(Front front, int until, Side& at, int panel, PivotWatch& watch) {
-  Side& side = front == Front::left ? left_ : right_;
-  const FrontRun run{front, side.done, until - side.done};
-  const int first_met = front == Front::left ? run.first : nodes_ - 2 - run.first;
-  kernel_->factorize_run(block_, nodes_, run, slot(at, first_met - first_node_of_panel(panel)), factors_, side.given, watch);
-  kernel_->forward_run(block_, nodes_, run, factors_, b_);
-  side.done = until;
+void ChainPanels::reach(Front front, int until, Side& at, int panel) {
+  FrontRun& run = front == Front::left ? left_.run : right_.run;
+  const int node = front == Front::left ? run.first : nodes_ - 1 - run.first;
+  run.count = until - run.first;
+  run.values = slot(at, node - first_node_of_panel(panel));
 }
 
 }  // namespace hawser

@@ -17,7 +17,7 @@ class ChainPanels {
   /// index: of the chain in the panels. b: of the chain.
   void start(const ChainKernel& kernel, MatrixPanels& panels, int index, const Chain& chain, double* factors, double* b);
 
-  /// The panels on one side of the middle one. The sides do not depend on each other.
+  /// The panels on one side of the middle one, or on both. The sides do not depend on each other.
   void eliminate(Front side, PivotWatch& watch);
 
   /// The middle panel and node, after both sides: b is then reduced, and `backward` makes it the solution.
@@ -26,18 +26,18 @@ class ChainPanels {
  private:
   struct Side {
     AlignedVector<double> values;
-    int done = 0;        // nodes of the front
-    double given = 0.0;  // ChainKernel::factorize_run
+    FrontRun run;
+    int panel = 0;  // the next one
   };
 
   /// D, U, L of a panel's node i; with the node before the panel, i = -1, and the two after it.
   double* slot(Side& side, int i) const { return side.values.data() + static_cast<std::ptrdiff_t>(i + 1) * node_size_; }
   void copy_nodes(const double* from, double* to, int count) const;
   void make(Side& side, int panel);
-  void eliminate_left(PivotWatch& watch);
-  void eliminate_right(PivotWatch& watch);
-  /// Until so many nodes of the front are done; `panel` lies in `at`.
-  void advance(Front front, int until, Side& at, int panel, PivotWatch& watch);
+  void make_next_left();
+  void make_next_right();
+  /// The front's run goes on until so many of its nodes are done; `panel` lies in `at`.
+  void reach(Front front, int until, Side& at, int panel);
 
   const ChainKernel* kernel_ = nullptr;
   MatrixPanels* panels_ = nullptr;

@@ -110,8 +110,7 @@ class ChainSolver final : public LinearSolver {
       }
       watch.add(watch_right);
     } else {
-      panels_.eliminate(Front::left, watch);
-      panels_.eliminate(Front::right, watch);
+      panels_.eliminate(Front::both, watch);
     }
     panels_.eliminate_middle(watch);
   }
