@@ -3,6 +3,7 @@
 //   hawser_bench --benchmark_filter=newton
 //
 // full:   residual, tangent, factors and increment: panel by panel in the chain solver, one after the other in the others
+// kept:   the same in the chain solver, with factors left for later iterations
 // apart:  the same one after the other in the chain solver, as the stages are measured
 // reused: residual, reduce, solve, expand with the factors of an earlier iteration
 // CHOLMOD factorizes the symmetric part (a modified Newton); forming it is counted.
@@ -17,7 +18,7 @@ namespace {
 using namespace hawser;
 using namespace hawser::bench;
 
-enum class Way { full, apart, reused };
+enum class Way { full, kept, apart, reused };
 
 void iteration_apart(MovingLine& line, LinearSolver& solver) {
   line.assemble();
@@ -29,6 +30,13 @@ void iteration_apart(MovingLine& line, LinearSolver& solver) {
 }
 
 void full_iteration(MovingLine& line, LinearSolver& solver) {
+  if (!solver.takes_unsymmetric()) return iteration_apart(line, solver);
+  TangentPanels panels = line.panels();
+  benchmark::DoNotOptimize(solver.solve_once(panels, line.rhs).smallest_pivot);
+  line.assembler.expand(line.tangent, line.rhs, line.d);
+}
+
+void full_iteration_with_kept_factors(MovingLine& line, LinearSolver& solver) {
   if (!solver.takes_unsymmetric()) return iteration_apart(line, solver);
   TangentPanels panels = line.panels();
   benchmark::DoNotOptimize(solver.factorize_and_solve(panels, line.rhs).smallest_pivot);
@@ -47,8 +55,11 @@ void newton(benchmark::State& state, ModelChoice family, const NamedSolver& name
   MovingLine line(family, elements);
   const auto solver = named.make();
   solver->analyze(line.tangent.chain);
-  full_iteration(line, *solver);
-  const auto iteration = way == Way::full ? full_iteration : way == Way::apart ? iteration_apart : reused_iteration;
+  full_iteration_with_kept_factors(line, *solver);
+  const auto iteration = way == Way::full    ? full_iteration
+                         : way == Way::kept  ? full_iteration_with_kept_factors
+                         : way == Way::apart ? iteration_apart
+                                             : reused_iteration;
   for (auto _ : state) {
     iteration(line, *solver);
     benchmark::ClobberMemory();
@@ -63,11 +74,11 @@ void newton(benchmark::State& state, ModelChoice family, const NamedSolver& name
 }
 
 const bool registered = [] {
-  for (const auto& [way, word] : {std::pair{Way::full, "full"}, {Way::apart, "apart"}, {Way::reused, "reused"}})
+  for (const auto& [way, word] : {std::pair{Way::full, "full"}, {Way::kept, "kept"}, {Way::apart, "apart"}, {Way::reused, "reused"}})
     for (const NamedSolver& solver : compared_solvers())
       for (const ModelChoice family : families) {
         const bool chain = solver.name == "chain";
-        if (!chain && (family != ModelChoice::beam || way == Way::apart)) continue;
+        if (!chain && (family != ModelChoice::beam || way == Way::apart || way == Way::kept)) continue;
         const std::string name = std::string("newton/") + word + "/" + solver.name + "/" + word_of(family);
         benchmark::RegisterBenchmark(name.c_str(), newton, family, solver, way)
             ->RangeMultiplier(10)

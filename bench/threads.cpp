@@ -29,7 +29,7 @@ struct Iteration {
 
   void full() {
     TangentPanels panels = line.panels();
-    solver->factorize_and_solve(panels, line.rhs);
+    solver->solve_once(panels, line.rhs);
     line.assembler.expand(line.tangent, line.rhs, line.d);
   }
 

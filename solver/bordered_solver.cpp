@@ -58,6 +58,10 @@ FactorReport BorderedSolver::factorize_and_solve(TangentPanels& panels, const Ta
   return report;
 }
 
+FactorReport BorderedSolver::solve_once(TangentPanels& panels, const Tangent& tangent, std::span<double> b) {
+  return tangent.border.empty() ? chains_.solve_once(panels, b) : factorize_and_solve(panels, tangent, b);
+}
+
 /// Zeroes the r of hub ends.
 void BorderedSolver::hold(std::span<double> b) const {
   for (const BorderEnd& end : border_.ends) std::fill_n(&b[end.r], 3, 0.0);

@@ -28,6 +28,8 @@ class BorderedSolver {
 
   /// Both at once, as LinearSolver::factorize_and_solve; with hubs the panels are made whole first.
   FactorReport factorize_and_solve(TangentPanels& panels, const Tangent& tangent, std::span<double> b);
+  /// As LinearSolver::solve_once.
+  FactorReport solve_once(TangentPanels& panels, const Tangent& tangent, std::span<double> b);
 
   /// In place, b as Assembler::reduce leaves it. Only after a factorize that returned ok.
   void solve(std::span<double> b);

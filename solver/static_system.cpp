@@ -77,16 +77,16 @@ bool StaticSystem::solve(double floor) {
   const bool definite = !exact || !keep_definite_ || negative_pivots_here() == 0;
   exact = exact && definite;
   TangentPanels panels = assembler_.tangent_panels(state_, static_weights, {floor, !exact, floor > 0.0 || !definite}, r_, tangent_, rhs_);
-  factor_report_ = factorize_and_solve(panels);
+  factor_report_ = solve_with(panels);
   assembler_.project(r_);
   if (factor_report_.status != FactorStatus::ok) return false;
   assembler_.expand(tangent_, rhs_, d_);
   return true;
 }
 
-FactorReport StaticSystem::factorize_and_solve(TangentPanels& panels) {
+FactorReport StaticSystem::solve_with(TangentPanels& panels) {
   if (!modified_) {
-    const FactorReport report = linear_.factorize_and_solve(panels, tangent_, rhs_);
+    const FactorReport report = linear_.solve_once(panels, tangent_, rhs_);
     if (report.status != FactorStatus::not_applicable) return report;
   }
   modified_ = true;

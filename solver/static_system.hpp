@@ -38,7 +38,7 @@ class StaticSystem : public NewtonSystem {
   const FactorReport& factor_report() const { return factor_report_; }
 
  private:
-  FactorReport factorize_and_solve(TangentPanels& panels);
+  FactorReport solve_with(TangentPanels& panels);
   int negative_pivots_here();
 
   const Assembler& assembler_;

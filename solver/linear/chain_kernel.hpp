@@ -11,9 +11,10 @@
 // The fronts do not depend on each other. One core can take them in turn, so that one works while the other waits; two threads take one each.
 // The numbers are the same bits either way.
 //
-// Values are laid out as in BlockTridiagonal: D, U, L of a node, column-major. Factors take the same room, block for block: L_k\U_k in the place
-// of D_k, Y_k and X_k in the places of the couplings they come from; the order within a block is the kernel's own. The columns of U_k are
+// Values are laid out as in BlockTridiagonal: D, U, L of a node, column-major. Factors, Keep::all, take the same room, block for block: L_k\U_k in
+// the place of D_k, Y_k and X_k in the places of the couplings they come from; the order within a block is the kernel's own. The columns of U_k are
 // divided by their pivots, and the diagonal holds the reciprocal pivots. U of the last node, unused, carries what the right front leaves at D_m.
+// Keep::solution leaves L_k\U_k and Y_k only, one behind the other, and after the last node two blocks of what the fronts leave for the middle.
 #pragma once
 
 #include <limits>
@@ -34,6 +35,12 @@ struct PivotWatch {
 
 enum class Front { left, right, both };
 
+/// What an elimination that reduces its right-hand side leaves.
+enum class Keep {
+  all,       // factors for other right-hand sides
+  solution,  // what its own backward substitution reads, two thirds of them
+};
+
 /// The next nodes of a front, counted from its end of the chain: 0 is the end node. The middle node is not among them.
 struct FrontRun {
   int first = 0, count = 0;
@@ -47,15 +54,15 @@ struct ChainKernel {
 
   /// A run of either front, for values that are made as they are eliminated, and the reduction of their b; a count may be zero. The runs move on:
   /// `first` behind their nodes, `count` to zero.
-  void (*eliminate_runs)(int block, int nodes, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch);
+  void (*eliminate_runs)(int block, int nodes, Keep keep, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch);
 
   /// `values`: of the middle node.
-  void (*factorize_middle)(int block, int nodes, const double* values, double* factors, PivotWatch& watch);
+  void (*factorize_middle)(int block, int nodes, Keep keep, const double* values, double* factors, PivotWatch& watch);
 
-  /// b becomes the solution: forward with both fronts, the middle, backward with both fronts.
+  /// b becomes the solution: forward with both fronts, the middle, backward with both fronts. Forward needs Keep::all.
   void (*forward)(int block, int nodes, const double* factors, double* b, Front front);
-  void (*solve_middle)(int block, int nodes, const double* factors, double* b);
-  void (*backward)(int block, int nodes, const double* factors, double* b, Front front);
+  void (*solve_middle)(int block, int nodes, Keep keep, const double* factors, double* b);
+  void (*backward)(int block, int nodes, Keep keep, const double* factors, double* b, Front front);
 
   const char* instruction_set;
 };

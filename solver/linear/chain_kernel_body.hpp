@@ -77,11 +77,11 @@ struct Node {
   typename Panel<B, 2>::Multiplier lower[B], x[B];  // columns of L_k, zero down to the diagonal, and of X_k
   Watch<B> watch;
 
-  // Columns 2P and 2P + 1 of L_k\U_k in place of those of D_k, and of X_k. The middle node has no X_k.
+  // Columns 2P and 2P + 1 of L_k\U_k from those of D_k, and of X_k, which is written where a place is given. The middle node has no X_k.
   //
   // The reciprocal of the second pivot q - l u / p is p / (p q - l u): both divisions go on at once.
   template <int P, bool HasNext>
-  HAWSER_INLINE void reduce(double* diagonal, const double* given_column, double* column) {
+  HAWSER_INLINE void reduce(const double* diagonal, const double* given_column, double* worked, double* column) {
     constexpr int first = 2 * P, second = first + 1;
     using Pair = PairOf<B, P>;
     Pair d, c;
@@ -99,54 +99,69 @@ struct Node {
     if constexpr (HasNext) x[first] = c.scaled_column(0, reciprocal);
     if constexpr (second == B) {
       watch.note_pivot(p), d.add_squares_to(watch.worked);
-      Pair::store_columns(diagonal + B * first, with_reciprocal, with_reciprocal);
-      if constexpr (HasNext) Pair::store_columns(column + B * first, x[first], x[first]);
+      Pair::store_columns(worked + B * first, with_reciprocal, with_reciprocal);
+      if (HasNext && column) Pair::store_columns(column + B * first, x[first], x[first]);
     } else {
       const double u = d.at(first, 1), determinant = p * d.at(second, 1) - d.at(second, 0) * u, second_reciprocal = p / determinant;
       d.subtract_from_second(lower[first], u);
       d.add_squares_to(watch.worked);
       const auto b = d.scaled_column(1, second_reciprocal);
       lower[second] = Pair::template zero_above<second + 1>(b);
-      Pair::store_columns(diagonal + B * first, with_reciprocal, Pair::template with_entry<second>(b, second_reciprocal));
+      Pair::store_columns(worked + B * first, with_reciprocal, Pair::template with_entry<second>(b, second_reciprocal));
       watch.note_pivots(p, determinant * reciprocal);
       if constexpr (HasNext) {
         c.subtract_from_second(x[first], u);
         x[second] = c.scaled_column(1, second_reciprocal);
-        Pair::store_columns(column + B * first, x[first], x[second]);
+        if (column) Pair::store_columns(column + B * first, x[first], x[second]);
       }
     }
   }
 };
 
-template <int B, Front Side>
+// A front that goes from node to node. Where not all is kept, D_k waits beside the factors, so that these are written once.
+template <int B, Front Side, Keep K>
 struct Elimination {
-  static constexpr int block = B * B;
+  using At = Layout<B, K>;
+  static constexpr int block = B * B, towards_middle = Side == Front::left ? 1 : -1;
   const double *values, *next_values;  // of the front's node and of the next one
-  double *factors, *next_factors;
+  double *factors, *column;            // column: where X_k goes, if it is kept
+  double *b, *next_b;                  // nullptr: none
+  double *diagonal, *next_diagonal;    // D_k and D_{k+1}
+  double* first_factors;               // of the chain
+  alignas(32) double waiting[B * B];
+  double aside[B] = {};  // a share of the middle node's b, which is taken anew from X
   Node<B> node;
 
-  HAWSER_INLINE void stand_at(const double* values_here, double* factors_here) {
-    values = values_here, factors = factors_here;
-    next_values = inwards<Side>(values, 3 * block), next_factors = inwards<Side>(factors, 3 * block);
+  HAWSER_INLINE void begin(int nodes, FrontRun& run, double* chain_factors, double* chain_b) {
+    const int k = node_of<Side>(nodes, run.first);
+    first_factors = chain_factors, factors = chain_factors + At::at(k);
+    values = run.values, next_values = inwards<Side>(values, 3 * block);
+    b = chain_b ? chain_b + static_cast<long>(B) * k : nullptr, next_b = chain_b ? b + towards_middle * B : nullptr;
+    diagonal = At::all ? factors : waiting, next_diagonal = At::all ? inwards<Side>(factors, At::node) : waiting;
+    column = At::all ? factors + At::template column<Side> : nullptr;
+    if (run.first == 0) run.given = take_over(values, diagonal);
+    if (run.first > 0 && !At::all) copy(factors, waiting);
+    node.watch.go_on(run.given);
   }
-  HAWSER_INLINE void advance() {
-    node.watch.end_node();
-    if constexpr (Side == Front::right) {
-      constexpr int ahead = 3 * block * (1 + fetched_ahead_to_factorize);
-      prefetch<24 * block, false>(values - ahead), prefetch<24 * block, true>(factors - ahead);
-    }
-    values = inwards<Side>(values, 3 * block), factors = inwards<Side>(factors, 3 * block);
-    next_values = inwards<Side>(next_values, 3 * block), next_factors = inwards<Side>(next_factors, 3 * block);
+  HAWSER_INLINE void end(FrontRun& run, int count, PivotWatch& watch) {
+    run.first += count, run.count -= count, run.given = node.watch.given.sum();
+    run.values = values;
+    if (!At::all && next_diagonal == waiting) copy(waiting, factors);
+    node.watch.add_to(watch);
   }
-  /// The right front leaves its share of the middle node aside, so that the left one need not wait.
-  HAWSER_INLINE void meet(int nodes, double* chain_factors) {
+  /// Before the last node. The right front leaves its share of the middle node aside, so that the left one need not wait; b of the middle takes
+  /// both shares later.
+  HAWSER_INLINE void meet(int nodes) {
     static constexpr double nothing[B * B] = {};
-    if constexpr (Side == Front::right) next_values = nothing, next_factors = chain_factors + left_at_middle<B>(nodes);
+    if constexpr (Side == Front::right) next_values = nothing, next_diagonal = first_factors + At::left_at_middle(nodes);
+    if constexpr (Side == Front::left && !At::all) next_diagonal = first_factors + At::at(nodes / 2);
+    if constexpr (!At::all) column = first_factors + (Side == Front::left ? At::left_column(nodes) : At::right_column(nodes));
+    next_b = aside;
   }
 
   template <int P>
   HAWSER_INLINE void reduce() {
-    node.template reduce<P, true>(factors, inwards<Side>(values, 2 * block), inwards<Side>(factors, 2 * block));
+    node.template reduce<P, true>(diagonal, inwards<Side>(values, 2 * block), factors, column);
   }
   // Columns 2P and 2P + 1 of Y_k and of what is left of the next node's D.
   template <int P>
@@ -161,89 +176,102 @@ struct Elimination {
       d.subtract(node.x[i], u);
     }
     y.add_squares_to(node.watch.worked);
-    y.store(inwards<Side>(factors, block) + first), d.store(next_factors + first);
+    y.store(factors + At::template row<Side> + first), d.store(next_diagonal + first);
   }
-  HAWSER_INLINE void reduce_node() {
+  HAWSER_INLINE void reduce_right_hand_side() {
+    if (!b) return;
+    Column<B> c, next;
+    c.load(b);
+    next.load(next_b);
+    HAWSER_UNROLL for (int i = 0; i < B; ++i) {
+      const double z = c.at(i);
+      if (i + 1 < B) Panel<B, 2>::subtract(c, node.lower[i], z);
+      Panel<B, 2>::subtract(next, node.x[i], z);
+    }
+    c.store(b), next.store(next_b);
+    b += towards_middle * B, next_b += towards_middle * B;
+  }
+  HAWSER_INLINE void advance() {
+    node.watch.end_node();
+    if constexpr (Side == Front::right) {
+      prefetch<24 * block, false>(values - 3 * block * (1 + fetched_ahead_to_factorize));
+      prefetch<8 * At::node, true>(factors - At::node * (1 + fetched_ahead_to_factorize));
+    }
+    values = inwards<Side>(values, 3 * block), next_values = inwards<Side>(next_values, 3 * block);
+    factors = inwards<Side>(factors, At::node);
+    if (At::all) diagonal = factors, next_diagonal = inwards<Side>(factors, At::node), column = factors + At::template column<Side>;
+  }
+  HAWSER_INLINE void eliminate_node() {
     for_each_pair<B>([&] HAWSER_PAIR { reduce<pair.value>(); });
-  }
-  HAWSER_INLINE void update_next() {
     for_each_pair<B>([&] HAWSER_PAIR { update<pair.value>(); });
+    reduce_right_hand_side();
     advance();
+  }
+
+ private:
+  /// The first D of the front: the sum of its squares.
+  static double take_over(const double* given, double* to) {
+    typename Panel<B, 2>::Squares sum;
+    sum.set_all(0.0);
+    for_each_pair<B>([&] HAWSER_PAIR {
+      constexpr int from = 2 * B * pair.value;
+      PairOf<B, pair.value> d;
+      d.load_values(given + from), d.store(to + from);
+      d.add_squares_to(sum);
+    });
+    return sum.sum();
+  }
+  static void copy(const double* from, double* to) {
+    for (int i = 0; i < block; ++i) to[i] = from[i];
   }
 };
 
-// Where a front begins and ends a run.
-template <int B, Front Side>
-HAWSER_INLINE double* begin(int nodes, FrontRun& run, double* factors) {
-  double* at = factors + 3L * B * B * node_of<Side>(nodes, run.first);
-  if (run.first > 0) return at;
-  typename Panel<B, 2>::Squares given;
-  given.set_all(0.0);
-  for_each_pair<B>([&] HAWSER_PAIR {
-    constexpr int from = 2 * B * pair.value;
-    PairOf<B, pair.value> d;
-    d.load_values(run.values + from), d.store(at + from);
-    d.add_squares_to(given);
-  });
-  run.given = given.sum();
-  return at;
-}
-template <int B, Front Side>
-HAWSER_INLINE void end(FrontRun& run, int count, double given) {
-  run.first += count, run.count -= count, run.given = given;
-  run.values = inwards<Side>(run.values, 3L * B * B * count);
-}
-
-template <int B, Front Side>
-void factorize_front(int nodes, FrontRun& run, double* factors, PivotWatch& watch) {
+template <int B, Front Side, Keep K>
+void factorize_front(int nodes, FrontRun& run, double* factors, double* b, PivotWatch& watch) {
   const int count = run.count, met = nodes_of<Side>(nodes) - run.first;
   if (count == 0) return;
-  Elimination<B, Side> front;
-  front.stand_at(run.values, begin<B, Side>(nodes, run, factors));
-  front.node.watch.go_on(run.given);
+  Elimination<B, Side, K> front;
+  front.begin(nodes, run, factors, b);
   for (int k = 1; k <= count; ++k) {
-    if (k == met) front.meet(nodes, factors);
-    front.reduce_node();
-    front.update_next();
+    if (k == met) front.meet(nodes);
+    front.eliminate_node();
   }
-  end<B, Side>(run, count, front.node.watch.given.sum());
-  front.node.watch.add_to(watch);
+  front.end(run, count, watch);
 }
 
 /// The next `count` nodes of both fronts, in turn.
-template <int B>
-void factorize_in_turn(int nodes, int count, FrontRun& left_run, FrontRun& right_run, double* factors, PivotWatch& watch) {
-  const int met = nodes_of<Front::right>(nodes) - right_run.first;
-  Elimination<B, Front::left> left;
-  Elimination<B, Front::right> right;
-  left.stand_at(left_run.values, begin<B, Front::left>(nodes, left_run, factors));
-  right.stand_at(right_run.values, begin<B, Front::right>(nodes, right_run, factors));
-  left.node.watch.go_on(left_run.given), right.node.watch.go_on(right_run.given);
+template <int B, Keep K>
+void factorize_in_turn(int nodes, int count, FrontRun& left_run, FrontRun& right_run, double* factors, double* b, PivotWatch& watch) {
+  const int left_met = nodes_of<Front::left>(nodes) - left_run.first, right_met = nodes_of<Front::right>(nodes) - right_run.first;
+  Elimination<B, Front::left, K> left;
+  Elimination<B, Front::right, K> right;
+  left.begin(nodes, left_run, factors, b), right.begin(nodes, right_run, factors, b);
   for (int k = 1; k <= count; ++k) {
-    if (k == met) right.meet(nodes, factors);
+    if (k == left_met) left.meet(nodes);
+    if (k == right_met) right.meet(nodes);
     for_each_pair<B>([&] HAWSER_PAIR { left.template reduce<pair.value>(), right.template reduce<pair.value>(); });
     for_each_pair<B>([&] HAWSER_PAIR { left.template update<pair.value>(), right.template update<pair.value>(); });
+    left.reduce_right_hand_side(), right.reduce_right_hand_side();
     left.advance(), right.advance();
   }
-  end<B, Front::left>(left_run, count, left.node.watch.given.sum()), end<B, Front::right>(right_run, count, right.node.watch.given.sum());
-  left.node.watch.add_to(watch), right.node.watch.add_to(watch);
+  left.end(left_run, count, watch), right.end(right_run, count, watch);
 }
 
 // With 6 unknowns a node one front already fills the processor's window of instructions: in turn is no faster.
-template <int B>
-void factorize_runs(int nodes, FrontRun& left, FrontRun& right, double* factors, PivotWatch& watch) {
+template <int B, Keep K>
+void eliminate_runs_of(int nodes, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch) {
   const int shared = left.count < right.count ? left.count : right.count;
   if constexpr (B == 3) {
-    if (shared > 0) factorize_in_turn<B>(nodes, shared, left, right, factors, watch);
+    if (shared > 0) factorize_in_turn<B, K>(nodes, shared, left, right, factors, b, watch);
   }
-  factorize_front<B, Front::left>(nodes, left, factors, watch);
-  factorize_front<B, Front::right>(nodes, right, factors, watch);
+  factorize_front<B, Front::left, K>(nodes, left, factors, b, watch);
+  factorize_front<B, Front::right, K>(nodes, right, factors, b, watch);
 }
 
-template <int B>
+template <int B, Keep K>
 void factorize_middle_node(int nodes, const double* values, double* factors, PivotWatch& watch) {
-  double* middle = factors + at_middle<B>(nodes);
-  const double* from_right = factors + left_at_middle<B>(nodes);
+  double* middle = factors + Layout<B, K>::at(nodes / 2);
+  const double* from_right = factors + Layout<B, K>::left_at_middle(nodes);
   Node<B> node;
   node.watch.start();
   for_each_pair<B>([&] HAWSER_PAIR {
@@ -253,7 +281,7 @@ void factorize_middle_node(int nodes, const double* values, double* factors, Piv
     if (nodes > 1) d.load(middle + first);
     if (nodes > 2) r.load(from_right + first), d.add(r);
     d.store(middle + first);
-    node.template reduce<pair.value, false>(middle, nullptr, nullptr);
+    node.template reduce<pair.value, false>(middle, nullptr, middle, nullptr);
   });
   node.watch.end_node();
   node.watch.add_to(watch);
@@ -264,14 +292,7 @@ template <int B>
 void factorize_any(int nodes, const double* values, double* factors, Front front, PivotWatch& watch) {
   FrontRun left{0, front == Front::right ? 0 : nodes_of<Front::left>(nodes), values};
   FrontRun right{0, front == Front::left ? 0 : nodes_of<Front::right>(nodes), values + 3L * B * B * (nodes - 1)};
-  factorize_runs<B>(nodes, left, right, factors, watch);
-}
-
-template <int B>
-void eliminate_runs_any(int nodes, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch) {
-  const FrontRun left_run = left, right_run = right;
-  factorize_runs<B>(nodes, left, right, factors, watch);
-  forward_runs<B>(nodes, left_run, right_run, factors, b);
+  eliminate_runs_of<B, Keep::all>(nodes, left, right, factors, nullptr, watch);
 }
 
 template <int B>
@@ -281,35 +302,45 @@ void forward_any(int nodes, const double* factors, double* b, Front front) {
   forward_runs<B>(nodes, left, right, factors, b);
 }
 
-template <int B>
+template <int B, Keep K>
 void backward_any(int nodes, const double* factors, double* b, Front front) {
-  if (front == Front::both) backward_both<B>(nodes, factors, b);
-  if (front == Front::left) backward_front<B, Front::left>(nodes, factors, b);
-  if (front == Front::right) backward_front<B, Front::right>(nodes, factors, b);
+  if (front == Front::both) backward_both<B, K>(nodes, factors, b);
+  if (front == Front::left) backward_front<B, Front::left, K>(nodes, factors, b);
+  if (front == Front::right) backward_front<B, Front::right, K>(nodes, factors, b);
+}
+
+template <Keep K>
+struct Kept {
+  static constexpr Keep value = K;
+};
+template <class Function>
+void with_layout(int block, Keep keep, Function f) {
+  if (block == 3) return keep == Keep::all ? f(Index<3>{}, Kept<Keep::all>{}) : f(Index<3>{}, Kept<Keep::solution>{});
+  keep == Keep::all ? f(Index<6>{}, Kept<Keep::all>{}) : f(Index<6>{}, Kept<Keep::solution>{});
 }
 
 void factorize(int block, int nodes, const double* values, double* factors, Front front, PivotWatch& watch) {
   block == 3 ? factorize_any<3>(nodes, values, factors, front, watch) : factorize_any<6>(nodes, values, factors, front, watch);
 }
 
-void eliminate_runs(int block, int nodes, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch) {
-  block == 3 ? eliminate_runs_any<3>(nodes, left, right, factors, b, watch) : eliminate_runs_any<6>(nodes, left, right, factors, b, watch);
+void eliminate_runs(int block, int nodes, Keep keep, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch) {
+  with_layout(block, keep, [&](auto size, auto kept) { eliminate_runs_of<size.value, kept.value>(nodes, left, right, factors, b, watch); });
 }
 
-void factorize_middle(int block, int nodes, const double* values, double* factors, PivotWatch& watch) {
-  block == 3 ? factorize_middle_node<3>(nodes, values, factors, watch) : factorize_middle_node<6>(nodes, values, factors, watch);
+void factorize_middle(int block, int nodes, Keep keep, const double* values, double* factors, PivotWatch& watch) {
+  with_layout(block, keep, [&](auto size, auto kept) { factorize_middle_node<size.value, kept.value>(nodes, values, factors, watch); });
 }
 
 void forward(int block, int nodes, const double* factors, double* b, Front front) {
   block == 3 ? forward_any<3>(nodes, factors, b, front) : forward_any<6>(nodes, factors, b, front);
 }
 
-void solve_middle(int block, int nodes, const double* factors, double* b) {
-  block == 3 ? solve_middle_node<3>(nodes, factors, b) : solve_middle_node<6>(nodes, factors, b);
+void solve_middle(int block, int nodes, Keep keep, const double* factors, double* b) {
+  with_layout(block, keep, [&](auto size, auto kept) { solve_middle_node<size.value, kept.value>(nodes, factors, b); });
 }
 
-void backward(int block, int nodes, const double* factors, double* b, Front front) {
-  block == 3 ? backward_any<3>(nodes, factors, b, front) : backward_any<6>(nodes, factors, b, front);
+void backward(int block, int nodes, Keep keep, const double* factors, double* b, Front front) {
+  with_layout(block, keep, [&](auto size, auto kept) { backward_any<size.value, kept.value>(nodes, factors, b, front); });
 }
 
 }  // namespace

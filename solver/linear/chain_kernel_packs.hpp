@@ -168,6 +168,7 @@ struct ColumnwisePanel {
     first.store(p);
     if constexpr (Columns == 2) second.store(p + B);
   }
+  static HAWSER_INLINE void subtract(Column<B>& c, const Multiplier& m, double u) { c.subtract(m, u); }
 };
 
 #if HAWSER_WIDEST_PACK == 4
@@ -240,6 +241,9 @@ struct PairOfSix {
   }
   static HAWSER_INLINE void store_columns(double* p, const Multiplier& a, const Multiplier& b) {
     Pack<4>{a.head}.store(p), Pack<4>{b.head}.store(p + 4), Pack<4>{select<12>(a.tail, b.tail)}.store(p + 8);
+  }
+  static HAWSER_INLINE void subtract(Column<6>& c, const Multiplier& m, double u) {
+    c.head.v -= m.head * u, c.tail.head.v -= __builtin_shufflevector(m.tail, m.tail, 0, 1) * u;
   }
 
  private:

@@ -8,8 +8,8 @@ namespace hawser {
 
 namespace {
 
-// Places in values and factors are those of a node's D. A front counts blocks from there towards the middle: Y_k after one, X_k after two, the
-// next node's D after three; in memory the right front meets them backwards.
+// Places are those of a node's D. In values a front counts blocks from there towards the middle: U or L of the front's own row after one, the other
+// coupling after two, the next node's D after three; in memory the right front meets them backwards.
 template <Front Side>
 constexpr int nodes_of(int nodes) {
   return Side == Front::left ? nodes / 2 : nodes - 1 - nodes / 2;
@@ -19,19 +19,28 @@ template <Front Side>
 constexpr int node_of(int nodes, int k) {
   return Side == Front::left ? k : nodes - 1 - k;
 }
-template <int B>
-constexpr long at_middle(int nodes) {
-  return 3L * B * B * (nodes / 2);
-}
-template <int B>
-constexpr long left_at_middle(int nodes) {
-  return 3L * B * B * (nodes - 1) + B * B;
-}
 
 template <Front Side, class T>
 HAWSER_INLINE T* inwards(T* p, long n) {
   return Side == Front::left ? p + n : p - n;
 }
+
+// Where factors lie (chain_kernel.hpp): places in the chain, and from a node's D.
+template <int B, Keep K>
+struct Layout {
+  static constexpr bool all = K == Keep::all;
+  static constexpr int block = B * B, node = all ? 3 * block : 2 * block;
+  static constexpr long at(int k) { return static_cast<long>(node) * k; }
+  static constexpr long left_at_middle(int nodes) { return all ? at(nodes - 1) + block : at(nodes); }
+  // X of the nodes beside the middle one.
+  static constexpr long left_column(int nodes) { return all ? at(nodes / 2) - block : at(nodes) + block; }
+  static constexpr long right_column(int nodes) { return at(nodes / 2) + block; }
+
+  template <Front Side>
+  static constexpr int row = all&& Side == Front::right ? -block : block;  // Y
+  template <Front Side>
+  static constexpr int column = Side == Front::right ? -2 * block : 2 * block;  // X, where all is kept
+};
 
 // Processors fetch ahead by themselves of loads that go up, hardly of those that go down. Measured: nodes ahead.
 constexpr int fetched_ahead_to_factorize = 3, fetched_ahead_to_solve = 8;
@@ -57,26 +66,26 @@ HAWSER_INLINE void solve_upper(const double* diagonal, double* z) {
 }
 
 // One front of a solve. The products with X_k and Y_k go in packs; the triangles, bound by the latency from unknown to unknown, in scalars.
-template <int B, Front Side>
+template <int B, Front Side, Keep K>
 struct Substitution {
-  static constexpr bool left = Side == Front::left;
-  static constexpr int block = B * B, towards_middle = left ? 1 : -1;
+  using At = Layout<B, K>;
+  static constexpr int towards_middle = Side == Front::left ? 1 : -1;
   const double* diagonal = nullptr;
   double* b = nullptr;
   double z[B] = {};  // of the node before
 
   HAWSER_INLINE void start_at(int node, const double* factors, double* chain_b) {
-    diagonal = factors + 3L * block * node, b = chain_b + static_cast<long>(B) * node;
+    diagonal = factors + At::at(node), b = chain_b + static_cast<long>(B) * node;
   }
   HAWSER_INLINE void fetch_ahead(int direction) {
-    if (direction < 0) prefetch<24 * block, false>(diagonal + direction * fetched_ahead_to_solve * 3 * block);
+    if (direction < 0) prefetch<8 * At::node, false>(diagonal + direction * fetched_ahead_to_solve * At::node);
   }
-  HAWSER_INLINE void move(int nodes) { diagonal += 3 * block * nodes, b += B * nodes; }
+  HAWSER_INLINE void move(int nodes) { diagonal += At::node * nodes, b += B * nodes; }
 
   HAWSER_INLINE void forward() {
     Column<B> c;
     c.load(b);
-    subtract_product<B>(c, diagonal - towards_middle * block, z);
+    subtract_product<B>(c, diagonal + At::template column<Side> - towards_middle * At::node, z);
     end_forward(c);
   }
   HAWSER_INLINE void end_forward(const Column<B>& c) {
@@ -89,7 +98,7 @@ struct Substitution {
   HAWSER_INLINE void backward() {
     Column<B> c;
     c.load(b);
-    subtract_product<B>(c, diagonal + towards_middle * block, z);
+    subtract_product<B>(c, diagonal + At::template row<Side>, z);
     HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = c.at(i);
     solve_upper<B>(diagonal, z);
     HAWSER_UNROLL for (int i = 0; i < B; ++i) b[i] = z[i];
@@ -119,40 +128,40 @@ struct Substitution {
 /// Both fronts in turn as far as both go.
 template <int B>
 void forward_runs(int nodes, FrontRun left_run, FrontRun right_run, const double* factors, double* b) {
-  Substitution<B, Front::left> left;
-  Substitution<B, Front::right> right;
+  Substitution<B, Front::left, Keep::all> left;
+  Substitution<B, Front::right, Keep::all> right;
   left.begin_forward(nodes, left_run, factors, b), right.begin_forward(nodes, right_run, factors, b);
   for (; left_run.count > 0 && right_run.count > 0; --left_run.count, --right_run.count) left.forward(), right.forward();
   for (; left_run.count > 0; --left_run.count) left.forward();
   for (; right_run.count > 0; --right_run.count) right.forward();
 }
 
-template <int B>
+template <int B, Keep K>
 void solve_middle_node(int nodes, const double* factors, double* b) {
-  const int middle = nodes / 2, block = B * B;
-  const double* diagonal = factors + 3L * block * middle;
-  b += static_cast<long>(B) * middle;
+  using At = Layout<B, K>;
+  const double* diagonal = factors + At::at(nodes / 2);
+  b += static_cast<long>(B) * (nodes / 2);
   Column<B> c;
   c.load(b);
-  if (nodes > 1) subtract_product<B>(c, diagonal - block, b - B);
-  if (nodes > 2) subtract_product<B>(c, diagonal + block, b + B);
+  if (nodes > 1) subtract_product<B>(c, factors + At::left_column(nodes), b - B);
+  if (nodes > 2) subtract_product<B>(c, factors + At::right_column(nodes), b + B);
   c.store(b);
   solve_lower<B>(diagonal, b);
   solve_upper<B>(diagonal, b);
 }
 
-template <int B, Front Side>
+template <int B, Front Side, Keep K>
 void backward_front(int nodes, const double* factors, double* b) {
-  Substitution<B, Side> front;
+  Substitution<B, Side, K> front;
   front.start_backward(nodes, factors, b);
   for (int k = nodes_of<Side>(nodes); k > 0; --k) front.backward();
 }
 
-template <int B>
+template <int B, Keep K>
 void backward_both(int nodes, const double* factors, double* b) {
   const int pairs = nodes_of<Front::right>(nodes);
-  Substitution<B, Front::left> left;
-  Substitution<B, Front::right> right;
+  Substitution<B, Front::left, K> left;
+  Substitution<B, Front::right, K> right;
   left.start_backward(nodes, factors, b), right.start_backward(nodes, factors, b);
   for (int k = 0; k < pairs; ++k) left.backward(), right.backward();
   if (pairs < nodes_of<Front::left>(nodes)) left.backward();

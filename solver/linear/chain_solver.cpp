@@ -41,18 +41,32 @@ class ChainSolver final : public LinearSolver {
   FactorReport factorize(const BlockTridiagonal& matrix) override {
     assert(matrix.chains().size() == chains_.size());
     PivotWatch watch;
+    kept_ = true;
     for (const Chain& c : chains_) factorize(c, matrix.values().data() + c.first_value, watch);
     fell_back_ = !accurate(watch);
     return fell_back_ ? factorize_pivoted(matrix) : report_of(watch);
   }
 
-  FactorReport factorize_and_solve(MatrixPanels& panels, std::span<double> b) override {
+  FactorReport factorize_and_solve(MatrixPanels& panels, std::span<double> b) override { return eliminate(panels, b, Keep::all); }
+  FactorReport solve_once(MatrixPanels& panels, std::span<double> b) override { return eliminate(panels, b, Keep::solution); }
+
+  void solve(std::span<double> b) override {
+    assert(kept_ || fell_back_);
+    if (fell_back_) return pivoted_->solve(b);
+    for (const Chain& c : chains_) solve(c, b.data() + c.first_dof);
+  }
+
+  std::size_t bytes() const override { return sizeof(double) * factors_.size() + (pivoted_ ? pivoted_->bytes() : 0); }
+
+ private:
+  FactorReport eliminate(MatrixPanels& panels, std::span<double> b, Keep keep) {
     PivotWatch watch;
+    kept_ = keep == Keep::all;
     for (std::size_t i = 0; i < chains_.size(); ++i) {
       const Chain& c = chains_[i];
-      panels_.start(kernel_, panels, static_cast<int>(i), c, factors_of(c), b.data() + c.first_dof);
+      panels_.start(kernel_, panels, static_cast<int>(i), c, keep, factors_of(c), b.data() + c.first_dof);
       eliminate_panels(c, watch);
-      backward(c, b.data() + c.first_dof);
+      backward(c, keep, b.data() + c.first_dof);
     }
     fell_back_ = !accurate(watch);
     if (!fell_back_) return report_of(watch);
@@ -61,14 +75,6 @@ class ChainSolver final : public LinearSolver {
     return report;
   }
 
-  void solve(std::span<double> b) override {
-    if (fell_back_) return pivoted_->solve(b);
-    for (const Chain& c : chains_) solve(c, b.data() + c.first_dof);
-  }
-
-  std::size_t bytes() const override { return sizeof(double) * factors_.size() + (pivoted_ ? pivoted_->bytes() : 0); }
-
- private:
   static bool accurate(const PivotWatch& watch) {
     const bool pivots_usable = watch.not_finite == 0.0 && usable_pivot(watch.smallest) && usable_pivot(watch.largest);
     return pivots_usable && watch.growth_squared <= growth_limit * growth_limit;
@@ -96,7 +102,7 @@ class ChainSolver final : public LinearSolver {
     } else {
       kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::both, watch);
     }
-    kernel_.factorize_middle(c.block, c.nodes, values + std::size_t{3} * c.block * c.block * (c.nodes / 2), factors_of(c), watch);
+    kernel_.factorize_middle(c.block, c.nodes, Keep::all, values + std::size_t{3} * c.block * c.block * (c.nodes / 2), factors_of(c), watch);
   }
 
   void eliminate_panels(const Chain& c, PivotWatch& watch) {
@@ -116,23 +122,26 @@ class ChainSolver final : public LinearSolver {
   }
 
   void solve(const Chain& c, double* b) {
-    substitute(kernel_.forward, c, b);
-    kernel_.solve_middle(c.block, c.nodes, factors_of(c), b);
-    backward(c, b);
+    on_both_fronts(c, [&](Front front) { kernel_.forward(c.block, c.nodes, factors_of(c), b, front); });
+    kernel_.solve_middle(c.block, c.nodes, Keep::all, factors_of(c), b);
+    backward(c, Keep::all, b);
   }
 
-  void backward(const Chain& c, double* b) { substitute(kernel_.backward, c, b); }
+  void backward(const Chain& c, Keep keep, double* b) {
+    on_both_fronts(c, [&](Front front) { kernel_.backward(c.block, c.nodes, keep, factors_of(c), b, front); });
+  }
 
-  void substitute(decltype(ChainKernel::backward) fronts, const Chain& c, double* b) {
+  template <class Substitution>
+  void on_both_fronts(const Chain& c, Substitution substitute) {
     if (threads_ > 1 && c.nodes >= nodes_to_share_solve) {
 #pragma omp parallel sections num_threads(2)
       {
-        fronts(c.block, c.nodes, factors_of(c), b, Front::left);
+        substitute(Front::left);
 #pragma omp section
-        fronts(c.block, c.nodes, factors_of(c), b, Front::right);
+        substitute(Front::right);
       }
     } else {
-      fronts(c.block, c.nodes, factors_of(c), b, Front::both);
+      substitute(Front::both);
     }
   }
 
@@ -155,7 +164,7 @@ class ChainSolver final : public LinearSolver {
   AlignedVector<double> factors_;
   std::unique_ptr<BandSolver> pivoted_;
   ChainPanels panels_;
-  bool fell_back_ = false;
+  bool fell_back_ = false, kept_ = false;
 };
 
 }  // namespace

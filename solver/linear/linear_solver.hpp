@@ -52,6 +52,9 @@ class LinearSolver {
   /// Solvers that cannot eliminate panels as they come take the whole matrix; where it is not_applicable, b is then the right-hand side.
   virtual FactorReport factorize_and_solve(MatrixPanels& panels, std::span<double> b);
 
+  /// The same where nothing else will be solved with this matrix: factors need not stay.
+  virtual FactorReport solve_once(MatrixPanels& panels, std::span<double> b) { return factorize_and_solve(panels, b); }
+
   /// Bytes held by factors and workspace after a factorize.
   virtual std::size_t bytes() const = 0;
 };

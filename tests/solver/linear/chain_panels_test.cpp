@@ -52,14 +52,17 @@ Answer apart(const Model& model, const State& state, const TangentFloor& floor) 
   return a;
 }
 
-Answer together(const Model& model, const State& state, const TangentFloor& floor, int threads = 1, LinearSolverKind kind = LinearSolverKind::chain) {
+enum class Factors { kept, spent };
+
+Answer together(const Model& model, const State& state, const TangentFloor& floor, int threads = 1, LinearSolverKind kind = LinearSolverKind::chain,
+                Factors factors = Factors::kept) {
   const Assembler assembler(model, threads);
   Tangent tangent = assembler.make_tangent();
   Answer a{std::vector<double>(model.unknowns), std::vector<double>(model.dofs), {}};
   const auto solver = make_linear_solver(kind, threads);
   solver->analyze(tangent.chain);
   TangentPanels panels = assembler.tangent_panels(state, weights, floor, a.r, tangent, a.x);
-  a.report = solver->factorize_and_solve(panels, a.x);
+  a.report = factors == Factors::kept ? solver->factorize_and_solve(panels, a.x) : solver->solve_once(panels, a.x);
   return a;
 }
 
@@ -113,6 +116,21 @@ TEST(ChainPanels, GiveTheBitsOfAssemblyBeforeEliminationOnAPlainLine) {
         EXPECT_EQ(a.report.largest_pivot, b.report.largest_pivot) << what;
       }
     }
+}
+
+TEST(ChainPanels, GiveTheSameBitsWhereFactorsAreNotKept) {
+  for (const int elements : {1, 2, 64, 65, 300, 5000}) {
+    const Model model = build_model(plain_line(elements, ModelChoice::beam));
+    const State state = shaken_state(model);
+    const Answer kept = together(model, state, {});
+    for (const int threads : {1, 2}) {
+      const Answer spent = together(model, state, {}, threads, LinearSolverKind::chain, Factors::spent);
+      ASSERT_EQ(spent.report.status, FactorStatus::ok) << elements;
+      EXPECT_EQ(kept.r, spent.r) << elements;
+      EXPECT_EQ(kept.x, spent.x) << elements;
+      EXPECT_EQ(kept.report.negative_pivots, spent.report.negative_pivots) << elements;
+    }
+  }
 }
 
 TEST(ChainPanels, GiveTheBitsOfEachLineByItselfInASceneOfSeveral) {
@@ -226,6 +244,9 @@ TEST(ChainPanels, SolveSeveralChainsAndFallBackToExchangesOfRows) {
     std::vector<double> again = b;
     solver->solve(again);
     EXPECT_LT(test::backward_error(test::dense(a), again, b), 1e-14) << "the factors stay";
+    StoredPanels spent(a, b, again);
+    EXPECT_EQ(solver->solve_once(spent, again).fell_back, !regular);
+    EXPECT_EQ(again, x) << "the factors do not stay";
   }
 }
 

@@ -1,4 +1,5 @@
 // What only the chain solver promises: when it exchanges rows, what it counts, what it costs in memory.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -161,10 +162,10 @@ KernelAnswer answer_of(const ChainKernel& kernel, const BlockTridiagonal& a, con
   KernelAnswer answer{std::vector<double>(a.values().size()), b, {}};
   double *factors = answer.factors.data(), *x = answer.x.data();
   for (const Front front : fronts) kernel.factorize(c.block, c.nodes, a.values().data(), factors, front, answer.watch);
-  kernel.factorize_middle(c.block, c.nodes, a.D(c, c.nodes / 2), factors, answer.watch);
+  kernel.factorize_middle(c.block, c.nodes, Keep::all, a.D(c, c.nodes / 2), factors, answer.watch);
   for (const Front front : fronts) kernel.forward(c.block, c.nodes, factors, x, front);
-  kernel.solve_middle(c.block, c.nodes, factors, x);
-  for (const Front front : fronts) kernel.backward(c.block, c.nodes, factors, x, front);
+  kernel.solve_middle(c.block, c.nodes, Keep::all, factors, x);
+  for (const Front front : fronts) kernel.backward(c.block, c.nodes, Keep::all, factors, x, front);
   return answer;
 }
 
@@ -205,6 +206,47 @@ TEST(ChainKernels, GiveTheSameBitsFrontByFront) {
           EXPECT_EQ(at_once.watch.growth_squared, in_turn.watch.growth_squared);
         }
       }
+}
+
+/// Elimination with its right-hand side in runs of `length` nodes of both fronts.
+KernelAnswer answer_in_runs(const ChainKernel& kernel, Keep keep, int length, const BlockTridiagonal& a, const std::vector<double>& b) {
+  const Chain& c = a.chains()[0];
+  KernelAnswer answer{std::vector<double>(a.values().size()), b, {}};
+  double *factors = answer.factors.data(), *x = answer.x.data();
+  const int left_nodes = c.nodes / 2, right_nodes = c.nodes - 1 - left_nodes;
+  FrontRun left, right;
+  while (left.first < left_nodes || right.first < right_nodes) {
+    left.count = std::min(length, left_nodes - left.first), right.count = std::min(length + 1, right_nodes - right.first);
+    left.values = a.D(c, left.first), right.values = a.D(c, c.nodes - 1 - right.first);
+    kernel.eliminate_runs(c.block, c.nodes, keep, left, right, factors, x, answer.watch);
+  }
+  kernel.factorize_middle(c.block, c.nodes, keep, a.D(c, left_nodes), factors, answer.watch);
+  kernel.solve_middle(c.block, c.nodes, keep, factors, x);
+  kernel.backward(c.block, c.nodes, keep, factors, x, Front::both);
+  return answer;
+}
+
+TEST(ChainKernels, GiveTheSameBitsWhateverTheyKeepAndInRunsOfAnyLength) {
+  for (const int block : {3, 6})
+    for (const int nodes : {1, 2, 3, 4, 5, 40, 41}) {
+      const Shape shape{block, nodes};
+      const BlockTridiagonal a = test::random_matrix(Kind::unsymmetric, {&shape, 1}, 4);
+      const std::vector<double> b = test::random_vector(a.dofs(), 5);
+      for (const ChainKernel* kernel : chain_kernels()) {
+        const KernelAnswer whole = answer_of(*kernel, a, b, together);
+        for (const Keep keep : {Keep::all, Keep::solution})
+          for (const int length : {1, 7, 100}) {
+            SCOPED_TRACE(
+                fmt::format("{}, {} nodes of {}, keeping {}, runs of {}", kernel->instruction_set, nodes, block, static_cast<int>(keep), length));
+            const KernelAnswer in_runs = answer_in_runs(*kernel, keep, length, a, b);
+            EXPECT_EQ(in_runs.x, whole.x);
+            EXPECT_EQ(in_runs.watch.negative, whole.watch.negative);
+            EXPECT_EQ(in_runs.watch.smallest, whole.watch.smallest);
+            EXPECT_EQ(in_runs.watch.largest, whole.watch.largest);
+            EXPECT_NEAR(in_runs.watch.growth_squared, whole.watch.growth_squared, 1e-14 * whole.watch.growth_squared);
+          }
+      }
+    }
 }
 
 }  // namespace
