@@ -14,6 +14,8 @@ namespace hawser {
 
 namespace {
 
+constexpr int fetched_ahead_from = 2000;  // elements: half of a megabyte of state and tables, measured
+
 /// What the inner unknowns of a joint leave in the right-hand side of its element.
 void condense_inner(const Model& model, const Joint& joint, std::span<const double> r, Elimination& e, std::span<double> rhs) {
   e.rc = Eigen::Map<const Eigen::VectorXd>(&r[joint.inner], joint.inner_count());
@@ -47,10 +49,10 @@ struct Assembler::Impl {
   std::vector<PanelOf> panels;
   std::vector<int> first_panel;  // of each line
   std::vector<double> carry;
-  std::vector<double> beside,
-      condensation;           // of the panels being made: residual of the loads beside the sweep, of inner unknowns in the right-hand side
-  std::vector<char> touched;  // AddedBlocks
-  TangentFloor floor;         // the one the tables hold
+  std::vector<double> beside;        // residual of the loads beside the sweep, for the panels being made
+  std::vector<double> condensation;  // what inner unknowns leave in their right-hand side
+  std::vector<char> touched;         // AddedBlocks
+  TangentFloor floor;                // the one the tables hold
 
   Impl(const Model& m, int n) : model(m), threads(n) {
     const auto source = property_arrays(m.element);
@@ -130,10 +132,10 @@ struct Assembler::Impl {
     const int count = static_cast<int>(panels.size());
     const int team = model.total_elements() < serial_below ? 1 : threads;
     if (team <= 1) {
-      for (int p = 0; p < count; ++p) run_panel(p, state, w, r, values_of(p, values));
+      for (int p = 0; p < count; ++p) run_panel(p, 1, state, w, r, values_of(p, values));
     } else {
 #pragma omp parallel for num_threads(team) schedule(static)
-      for (int p = 0; p < count; ++p) run_panel(p, state, w, r, values_of(p, values));
+      for (int p = 0; p < count; ++p) run_panel(p, 1, state, w, r, values_of(p, values));
     }
     for (int p = 0; p + 1 < count; ++p)
       if (panels[p + 1].line == panels[p].line) add_carry(p, r, values_of(p + 1, values));
@@ -146,9 +148,12 @@ struct Assembler::Impl {
     return values + c.first_value + std::size_t{3} * c.block * c.block * first_node_of_panel(panels[p].panel);
   }
 
-  void run_panel(int p, const State& state, const TangentWeights& w, double* r, double* values) {
+  /// direction: to the panel that is made next, 1 or -1.
+  void run_panel(int p, int direction, const State& state, const TangentWeights& w, double* r, double* values) {
     const int family = sweep_family(static_cast<int>(model.lines[panels[p].line].family), model.wet);
-    const SweepLine line = sweep_line(panels[p].line, state, w, r, values);
+    SweepLine line = sweep_line(panels[p].line, state, w, r, values);
+    const int next = panels[p].panel + direction;
+    if (line.elements >= fetched_ahead_from && next >= 0 && first_node_of_panel(next) < line.elements) line.next = direction * panel_elements;
     (values ? sweep.tangent : sweep.force)[family](line, panels[p].panel);
   }
 
@@ -262,7 +267,8 @@ void TangentPanels::make(int chain_index, int panel, double* values) {
   Assembler::Impl& impl = *assembler_.impl_;
   const Model& model = assembler_.model_;
   const Chain& chain = model.chain(chain_index);
-  impl.run_panel(impl.first_panel[chain_index] + panel, state_, weights_, r_.data(), values);
+  const int towards_middle = 2 * panel < panel_count(chain.nodes) ? 1 : -1;  // as the chain solver asks for them
+  impl.run_panel(impl.first_panel[chain_index] + panel, towards_middle, state_, weights_, r_.data(), values);
   const bool beside = impl.has_beside();
   if (beside) add_beside(chain, panel, values);
   const std::size_t first = chain.dof(first_node_of_panel(panel)), end = first + chain.block * nodes_of_panel(panel, chain.nodes);

@@ -26,6 +26,7 @@ struct SweepLine {
   double* r;       // the line's residual
   double* blocks;  // D, U, L of the panel's nodes; null: residual alone
   double* carry;   // carry_size doubles a panel
+  int next;        // elements from the panel to the one that is made after it, whose data are fetched meanwhile; 0: none
 };
 
 using SweepFunction = void (*)(const SweepLine&, int panel);

@@ -191,6 +191,19 @@ HAWSER_INLINE void write_end(const SweepLine& line, const Running<B, W>& before,
   }
 }
 
+/// Asks for what the W elements from e on will need: the tables of a panel are too many short streams for the processor to foresee.
+template <int B, int W>
+HAWSER_INLINE void fetch_ahead(const SweepLine& line, int e) {
+  const auto fetch = [](const double* p, int doubles) __attribute__((always_inline)) {
+    for (int i = 0; i < doubles; i += 8) __builtin_prefetch(p + i, 0, 2);
+  };
+  fetch(line.q + B * e, B * W), fetch(line.v + B * e, B * W), fetch(line.a + B * e, B * W);
+  for (int i = 0; i < B * W; i += 8) __builtin_prefetch(line.r + B * e + i, 1, 2);
+  for (const double* table : line.property) __builtin_prefetch(table + e, 0, 2);
+  if constexpr (B == 6)
+    for (const double* table : line.node_property) __builtin_prefetch(table + e, 0, 2);
+}
+
 template <class Family, Want want, int W>
 void sweep_panel(const SweepLine& line, int panel) {
   using S = Pack<W>;
@@ -210,6 +223,7 @@ void sweep_panel(const SweepLine& line, int panel) {
   int lanes = W;
   for (int e = 0; e < count; e += W) {
     lanes = count - e < W ? count - e : W;
+    if (line.next != 0) fetch_ahead<B, W>(line, first + e + line.next);
     const Properties<S> properties = load_properties<W>(line, first + e);
     const ElementState<S> x{state.template nodal<W>(0, e), state.template nodal<W>(1, e), state.template nodal<W>(2, e)};
     Integrand<Family, S> in;
