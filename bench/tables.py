@@ -16,7 +16,7 @@ SOLVERS = {'chain': 'chain', 'band': 'band (LAPACK)', 'sundials': 'SUNDIALS, SUN
 FAMILIES = ('bar', 'cable', 'beam')
 STAGES = {'residual': 'assembly/residual/beam/wet', 'tangent': 'assembly/tangent/beam/wet', 'factorize': 'linear/factorize/chain',
           'solve': 'linear/solve/chain', 'full iteration': 'newton/full/chain/beam',
-          'full, assembly first': 'newton/apart/chain/beam', 'reused': 'newton/reused/chain/beam'}
+          'full, factors kept': 'newton/kept/chain/beam', 'full, assembly first': 'newton/apart/chain/beam', 'reused': 'newton/reused/chain/beam'}
 
 THREAD_STAGES = ('residual', 'tangent', 'factorize', 'solve', 'newton')
 

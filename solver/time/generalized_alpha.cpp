@@ -34,6 +34,23 @@ constexpr double floor_margin = 10.0;
 
 }  // namespace
 
+/// What rounding leaves of the residual at a state [N]. Found when first asked for: it takes a pass over the elements.
+class GeneralizedAlpha::RoundingForce {
+ public:
+  RoundingForce(const System& system, const State& state) : system_(system), state_(state) {}
+  double force() {
+    if (!force_) {
+      force_ = system_.roundoff_floor(state_);
+    }
+    return *force_;
+  }
+
+ private:
+  const System& system_;
+  const State& state_;
+  std::optional<double> force_;
+};
+
 AlphaCoefficients::AlphaCoefficients(double spectral_radius)
     : alpha_m((2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0)),
       alpha_f(spectral_radius / (spectral_radius + 1.0)),
@@ -111,15 +128,7 @@ StepReport GeneralizedAlpha::step(State& state, double t, double h, const Tangen
 /// Newton from the predicted state. Factors serve again, those of an earlier step too, where the contraction just observed says that this
 /// finishes the step for less than new ones cost. An iteration with old factors that gained nothing is taken back.
 StepStatus GeneralizedAlpha::iterate(const State& state, const TangentWeights& weights, const TangentFloor& floor, StepReport& report) {
-  // Rounding is looked at only where the tolerance is not met: it takes a pass over the elements.
-  std::optional<double> rounding;
-  const auto floor_force = [&] {
-    if (!rounding) {
-      rounding = system_.roundoff_floor(state);
-    }
-    return *rounding;
-  };
-  const double wanted_length = tolerance_ * system_.reference_length();
+  RoundingForce rounding(system_, state);
   bool keep = old_factors_serve(weights, floor), old = keep;
   const bool fresh = !old;
   const int worth = std::min(iterations_worth_factors, factors_.fresh_iterations + 1);
@@ -144,16 +153,12 @@ StepStatus GeneralizedAlpha::iterate(const State& state, const TangentWeights& w
     const bool whole = taken == 1.0;
     move(taken, weights);
     evaluate(report);
-    const auto [force, reference] = measure(report);
+    const Measure now = measure(report);
+    const double force = now.force, wanted_force = this->wanted_force(now, rounding);
     if (!std::isfinite(force) && !old) {
       return StepStatus::not_finite;
     }
-    const double wanted_force = force <= tolerance_ * reference ? tolerance_ * reference : std::max(tolerance_ * reference, floor_force());
-    // The next increment is judged, not the one already made: it shrinks with the residual.
-    const double next_increment = whole ? increment * std::min(1.0, force / previous) : increment;
-    const bool small = force <= wanted_force && next_increment <= wanted_length;
-    const bool at_floor = force > 0.5 * previous && force <= floor_margin * floor_force();
-    if (whole && (small || at_floor)) {
+    if (whole && settled(force, previous, wanted_force, increment, rounding)) {
       if (old) {
         factors_.failures = 0;
       }
@@ -174,6 +179,20 @@ StepStatus GeneralizedAlpha::iterate(const State& state, const TangentWeights& w
     previous = force;
   }
   return StepStatus::not_converged;
+}
+
+double GeneralizedAlpha::wanted_force(const Measure& now, RoundingForce& rounding) const {
+  const double tolerated = tolerance_ * now.reference;
+  return now.force <= tolerated ? tolerated : std::max(tolerated, rounding.force());
+}
+
+/// Judges the next increment, not the one already made: it shrinks with the residual.
+bool GeneralizedAlpha::settled(double force, double previous, double wanted_force, double increment, RoundingForce& rounding) const {
+  const double next_increment = increment * std::min(1.0, force / previous);
+  if (force <= wanted_force && next_increment <= tolerance_ * system_.reference_length()) {
+    return true;
+  }
+  return force > 0.5 * previous && force <= floor_margin * rounding.force();
 }
 
 /// The factors in hand are of an earlier step with the same weights, and worth trying.

@@ -75,6 +75,7 @@ class GeneralizedAlpha {
   struct Measure {
     double force, reference;  // N
   };
+  class RoundingForce;
 
   static constexpr int iterations_expected = 2;
 
@@ -83,8 +84,8 @@ class GeneralizedAlpha {
     bool valid = false;
     TangentWeights weights;
     TangentFloor floor;
-    int pause = 0;     // steps for which old factors are not tried
-    int failures = 0;  // attempts with old factors in a row that had to be given up
+    int pause = 0;                               // steps for which old factors are not tried
+    int failures = 0;                            // attempts with old factors in a row that had to be given up
     int fresh_iterations = iterations_expected;  // of the last step that began with new factors
   };
 
@@ -92,6 +93,8 @@ class GeneralizedAlpha {
   void find_auxiliary(const State& state, std::vector<double>& out);
   void follow_prescribed(const TangentWeights& weights);
   StepStatus iterate(const State& state, const TangentWeights& weights, const TangentFloor& floor, StepReport& report);
+  double wanted_force(const Measure& now, RoundingForce& rounding) const;
+  bool settled(double force, double previous, double wanted_force, double increment, RoundingForce& rounding) const;
   bool old_factors_serve(const TangentWeights& weights, const TangentFloor& floor);
   void give_up_old_factors();
   void evaluate(StepReport& report);
