@@ -14,6 +14,8 @@ using Json = nlohmann::ordered_json;
 
 /// Microseconds of one Newton iteration per element on an x86-64 core of about 4 GHz with AVX2: assembly and solution.
 constexpr double bar_microseconds = 0.1, beam_microseconds = 0.3;
+/// And of a solution alone: where lines meet at free points, three for every end that a line has there (bordered_solver.hpp).
+constexpr double bar_solution_microseconds = 0.01, beam_solution_microseconds = 0.03;
 constexpr double static_iterations = 10.0, iterations_a_step = 3.0;
 
 bool any_in(const std::vector<double>& values, const Line& line) {
@@ -151,11 +153,15 @@ std::vector<std::string> terms_of(const Model& model, const Line& line) {
 CostEstimate estimate_cost(const Scene& scene, const Model& model) {
   CostEstimate cost;
   double iteration = 0.0;  // s
+  int ends_at_hubs = 0;    // of one line, at most
+  for (const Line& line : model.lines) ends_at_hubs = std::max(ends_at_hubs, (line.from_hub >= 0 ? 1 : 0) + (line.to_hub >= 0 ? 1 : 0));
   for (std::size_t i = 0; i < model.lines.size(); ++i) {
     const double block = model.chains[i].block;
     // Tangent and factors: 3 blocks a node each; about 20 vectors of unknowns; 12 properties an element.
     cost.bytes += 8.0 * (model.lines[i].nodes * (2.0 * 3.0 * block * block + 20.0 * block) + 12.0 * model.lines[i].elements);
-    iteration += 1e-6 * model.lines[i].elements * (model.lines[i].family == Family::bar ? bar_microseconds : beam_microseconds);
+    const bool bar = model.lines[i].family == Family::bar;
+    const double solutions = 3.0 * ends_at_hubs * (bar ? bar_solution_microseconds : beam_solution_microseconds);
+    iteration += 1e-6 * model.lines[i].elements * ((bar ? bar_microseconds : beam_microseconds) + solutions);
   }
   cost.static_seconds = static_iterations * iteration;
   if (!scene.dynamics) return cost;

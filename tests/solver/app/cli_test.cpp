@@ -5,7 +5,9 @@
 #include <chrono>
 #include <thread>
 
+#include "solver/app/command_check.hpp"
 #include "tests/solver/app/cli_program.hpp"
+#include "tests/support/network_scenes.hpp"
 
 namespace hawser::test {
 namespace {
@@ -195,6 +197,15 @@ TEST_F(Cli, CheckPrintsWhatWasUnderstood) {
   EXPECT_EQ(document.at("lines").at("a").at("sections").at(0).at("element_size"), 10.0);
   EXPECT_EQ(document.at("estimates").at("steps"), 20);
   EXPECT_GT(document.at("estimates").at("bytes"), 0.0);
+}
+
+// Each of the lines between hubs asks for six solutions an iteration beside the one with the residual.
+TEST(CostEstimate, CountsTheSolutionsThatLinesMeetingAtFreePointsAskFor) {
+  const Scene network = test::small_network(4, ModelChoice::beam);
+  Model apart = build_model(network);
+  const double together = estimate_cost(network, apart).static_seconds;
+  for (Line& line : apart.lines) line.from_hub = line.to_hub = -1;
+  EXPECT_GT(together, 1.3 * estimate_cost(network, apart).static_seconds);
 }
 
 TEST_F(Cli, CheckWarnsOfAStretchedLineAndOfUnusedBendingStiffness) {
