@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <random>
 
 #include "assembly/assembler.hpp"
@@ -259,6 +260,35 @@ TEST_P(SeabedUnder, ElementsWithAndWithoutAJointTakeTheSameContact) {
   }
   const auto r = residual(state);
   for (std::size_t i = 0; i < sum.size(); ++i) EXPECT_NEAR(r[i], sum[i], 1e-12 * 2.0e3);
+}
+
+// Where friction slides, the symmetric part of D (I - u u^T/m^2) has a negative eigenvalue if D is not a number; so has that of a normal force that
+// is not along the gradient of the penetration. Neither says that a line would leave its place.
+TEST(SeabedLaw, WhatStabilityTakesOfTheBedIsSymmetricAndNeverPullsALineFromItsPlace) {
+  const SeabedSurface surface(bumpy());
+  const Vec3 r(2.3, 0.2, surface.height(2.3, 0.2) - 0.03), along(0.8, 0.5, 0.1), still = Vec3::Zero();
+  for (const Vec3& u : {Vec3(0.001, 0.002, 0.0), Vec3(0.3, 0.2, 0.0), Vec3(-0.1, 0.9, 0.1)}) {
+    const Vec3 lay = r - u;
+    SurfacePoint<double> bed = surface.at(r.x(), r.y());
+    for (auto& row : bed.curvature) row[0] = row[1] = 0.0;  // a ridge does let a line go
+    const Mat3 stiffness = -contact_tangent(law(0, 0, 1.1, 0.15), bed, r, along, still, &lay, FrictionTangent::frozen).d_r;
+    const double size = stiffness.norm();
+    EXPECT_LT((stiffness - stiffness.transpose()).norm(), 1e-14 * size);
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Mat3>(stiffness).eigenvalues()[0], -1e-13 * size);
+  }
+}
+
+TEST(SeabedLaw, WhatStabilityTakesOfFrictionIsItsDerivativeWhereTheLineSlidesAlongOrAcrossOrSticks) {
+  const SeabedSurface level(-10.0);
+  const Vec3 r(5.0, 0.0, -10.1), along = Vec3::UnitX(), still = Vec3::Zero();
+  for (const Vec3& u : {Vec3(0.4, 0.0, 0.0), Vec3(0.0, -0.4, 0.0), Vec3(1e-9, 1e-9, 0.0)}) {
+    const Vec3 lay = r - u;
+    const auto of = [&](FrictionTangent kind) -> Mat3 {
+      return contact_tangent(law(0, 0, 1.1, 0.15), level.at(r.x(), r.y()), r, along, still, &lay, kind).d_r;
+    };
+    const Eigen::Matrix2d exact = of(FrictionTangent::exact).topLeftCorner<2, 2>(), frozen = of(FrictionTangent::frozen).topLeftCorner<2, 2>();
+    EXPECT_LT((exact - frozen).norm(), 1e-6 * exact.norm()) << u.transpose();  // the direction counts to 1e-3 squared: upright_slope
+  }
 }
 
 /// A level line of two elements of 4 m at a depth below the bed at each of its three nodes, straight between them.
