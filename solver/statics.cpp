@@ -26,12 +26,12 @@ constexpr double loose_tolerance = 1e-6;   // theory 6.1, where the automatic on
 constexpr double loose_increment = 1e-4;   // of the length
 constexpr double floor_share = 0.25;       // of the load: T_f = 0.25 w L (theory 7.2)
 constexpr double guard_floor = 1e-5;       // of T_f, where a guarded Newton starts near a solution
+constexpr int way_steps = 300;             // of a motion from one of the models on the way of a continuation to the next
+constexpr int most_restless = 2;           // of these motions, that led to no equilibrium
 constexpr double way_tolerance = 1e-7;     // of the models on the way of a continuation
 constexpr double way_increment = 1e-5;     // of the length
 constexpr double relaxation_floor = 1e-2;  // of T_f
 constexpr int relaxation_steps = 1000;
-constexpr int way_relaxation_steps = 300;  // of a model on the way of a continuation
-constexpr int most_restless = 2;           // of these, that did not lead to an equilibrium
 
 double longest_line(const Model& model) {
   double longest = 0.0;
@@ -121,7 +121,7 @@ class StaticSolver {
            report_.stable;
   }
 
-  /// From an easier model to the real one (static_continuation.hpp). Where a branch of equilibria ends the line jumps to another one.
+  /// From an easier model to the real one (static_continuation.hpp).
   bool by_continuation(const State& start) {
     if (exhausted()) return false;
     StaticContinuation way(model_, load_);
@@ -152,10 +152,10 @@ class StaticSolver {
       const State before = state_;
       way.advance();
       if (reached(way, before, attempts)) continue;
-      if (restless < most_restless) {
+      if (restless < most_restless) {  // a branch of equilibria may have ended: the line jumps
         state_ = before;
         const Assembler next(way.model(), std::max(1, options_.threads));
-        if (comes_to_rest(next, way_relaxation_steps, !way.at_end())) continue;
+        if (comes_to_rest(next, way_steps, !way.at_end())) continue;
         ++restless;
       }
       state_ = before;
