@@ -13,6 +13,7 @@ namespace {
 constexpr int points = 4;                  // of Gauss, in a piece of an element
 constexpr int samples = 8;                 // of the penetration over an element, on a grid
 constexpr double root_resolution = 1e-15;  // of the element
+constexpr double inside = 1e-9;            // of a piece: off its ends, where the bed may have a kink
 
 /// Shape functions and their derivatives by arc length at xi; those of the slopes are zero for a bar.
 struct Shapes {
@@ -46,14 +47,21 @@ Columns columns(const double* x, int block) {
   return c;
 }
 
-using Cuts = std::array<double, 2 * samples + 1>;  // places in an element
+constexpr int most_kinks = 24;  // lines of the grid that an element crosses
+constexpr int smooth_pieces = samples + most_kinks;
+struct Cut {
+  double xi;
+  bool kink = false;  // of the bed
+};
+using Cuts = std::array<Cut, 2 * smooth_pieces + 1>;
+constexpr int most_pieces = 6 * smooth_pieces + 1;  // cut at two levels of the penetration and at kinks
 
 /// Parts of an element, xi from a to b.
 struct Piece {
   double a, b;
 };
 struct Pieces {
-  std::array<Piece, 4 * samples + 1> piece;
+  std::array<Piece, most_pieces> piece;
   int count = 0;
   const Piece* begin() const { return piece.data(); }
   const Piece* end() const { return piece.data() + count; }
@@ -87,9 +95,12 @@ class ContactElement {
 
   /// Pieces with g > 0, cut where g = 0 and, if `toe`, where g = delta.
   Pieces wet(bool toe) const;
-  /// Ends of pieces on which the penetration is monotone: the extrema of the cubic on a level bed, on a grid those that samples of its
-  /// derivative tell. (A piece that only began at a sample would begin at once, with a jump of the force.)
-  int monotone_cuts(Cuts& xi) const;
+  /// Ends of pieces on which the penetration is monotone: the extrema of the cubic on a level bed; on a grid the lines that cross, where the
+  /// bed has a kink, and the extrema between them that samples of the derivative tell. (A piece that only began at a sample would begin at once,
+  /// with a jump of the force.)
+  int monotone_cuts(Cuts& cut) const;
+  /// Samples and places over lines of the grid, in order.
+  int smooth_cuts(std::array<Cut, smooth_pieces + 1>& cut) const;
 
   Shapes shapes(double xi) const { return Shapes(bar_, l_, xi); }
   Vec3 position(const Shapes& n) const { return q_ * n.s; }
@@ -122,16 +133,41 @@ class ContactElement {
   Columns q_, lay_;
 };
 
-int ContactElement::monotone_cuts(Cuts& xi) const {
+int ContactElement::smooth_cuts(std::array<Cut, smooth_pieces + 1>& cut) const {
+  int count = 0, kinks = 0;
+  cut[count++] = {0.0};
+  Vec3 left = q_.col(0);
+  for (int i = 1; i <= samples; ++i) {
+    const double a = static_cast<double>(i - 1) / samples, b = static_cast<double>(i) / samples;
+    const Vec3 right = position(shapes(b));
+    const int first = count;
+    for (int axis = 0; axis < 2; ++axis) {
+      auto line = bed_.surface.grid_line(axis, left[axis], right[axis]);
+      for (; line && kinks < most_kinks; ++kinks) {
+        const auto beyond = [&](double x) { return position(shapes(x))[axis] - *line; };
+        cut[count++] = {bracketed_root(beyond, a, b, left[axis] - *line, right[axis] - *line, root_resolution), true};
+        line = bed_.surface.grid_line(axis, std::nextafter(*line, right[axis]), right[axis]);
+      }
+    }
+    std::sort(cut.begin() + first, cut.begin() + count, [](const Cut& p, const Cut& q) { return p.xi < q.xi; });
+    cut[count++] = {b};
+    left = right;
+  }
+  return count;
+}
+
+int ContactElement::monotone_cuts(Cuts& cut) const {
   int count = 0;
-  xi[count++] = 0.0;
+  cut[count++] = {0.0};
   if (!bed_.surface.level()) {
-    double left = deepening(0.0);
-    for (int i = 1; i <= samples; ++i) {
-      const double a = static_cast<double>(i - 1) / samples, b = static_cast<double>(i) / samples, right = deepening(b);
-      if ((left > 0.0) != (right > 0.0)) xi[count++] = bracketed_root([&](double x) { return deepening(x); }, a, b, left, right, root_resolution);
-      xi[count++] = b;
-      left = right;
+    std::array<Cut, smooth_pieces + 1> smooth;
+    const int pieces = smooth_cuts(smooth) - 1;
+    for (int i = 0; i < pieces; ++i) {
+      const double width = smooth[i + 1].xi - smooth[i].xi, a = smooth[i].xi + inside * width, b = smooth[i + 1].xi - inside * width;
+      const double left = deepening(a), right = deepening(b);
+      if ((left > 0.0) != (right > 0.0) && b > a)
+        cut[count++] = {bracketed_root([&](double x) { return deepening(x); }, a, b, left, right, root_resolution)};
+      cut[count++] = smooth[i + 1];
     }
     return count;
   }
@@ -145,37 +181,41 @@ int ContactElement::monotone_cuts(Cuts& xi) const {
       double roots[2] = {a != 0.0 ? h / a : -1.0, h != 0.0 ? c / h : -1.0};
       if (roots[0] > roots[1]) std::swap(roots[0], roots[1]);
       for (double x : roots)
-        if (x > 0.0 && x < 1.0) xi[count++] = x;
+        if (x > 0.0 && x < 1.0) cut[count++] = {x};
     }
   }
-  xi[count++] = 1.0;
+  cut[count++] = {1.0};
   return count;
 }
 
 Pieces ContactElement::wet(bool toe) const {
-  if (immersed(toe ? bed_.law.smoothing : 0.0)) return {{Piece{0.0, 1.0}}, 1};
+  Pieces wet;
+  if (immersed(toe ? bed_.law.smoothing : 0.0)) {
+    wet.piece[wet.count++] = {0.0, 1.0};
+    return wet;
+  }
   const double levels[2] = {0.0, bed_.law.smoothing};
   const int level_count = toe && bed_.law.smoothing > 0.0 ? 2 : 1;
-  Cuts xi;
-  std::array<double, 4 * samples + 2> cut;
-  const int count = monotone_cuts(xi);
+  Cuts turn;
+  std::array<double, most_pieces + 1> cut;
+  const int count = monotone_cuts(turn);
   int cuts = 0;
   cut[cuts++] = 0.0;
   double left = gap(0.0);
   for (int i = 1; i < count; ++i) {
-    const double right = gap(xi[i]);
+    const double right = gap(turn[i].xi);
     const int first = cuts;
     for (int k = 0; k < level_count; ++k) {
       const double level = levels[k];
       if ((left > level) == (right > level)) continue;
       const auto above = [&](double x) { return gap(x) - level; };
-      cut[cuts++] = bracketed_root(above, xi[i - 1], xi[i], left - level, right - level, root_resolution);
+      cut[cuts++] = bracketed_root(above, turn[i - 1].xi, turn[i].xi, left - level, right - level, root_resolution);
     }
     std::sort(cut.begin() + first, cut.begin() + cuts);
+    if (turn[i].kink) cut[cuts++] = turn[i].xi;
     left = right;
   }
   cut[cuts++] = 1.0;
-  Pieces wet;
   for (int i = 0; i + 1 < cuts; ++i)
     if (cut[i + 1] > cut[i] && gap(0.5 * (cut[i] + cut[i + 1])) > 0.0) wet.piece[wet.count++] = {cut[i], cut[i + 1]};
   return wet;
@@ -247,10 +287,10 @@ void add_depth(const ContactElement& e, const Piece& piece, double s0, SeabedCon
   const double width = piece.b - piece.a;
   for (int q = 0; q < points; ++q)
     out.force += four_gauss_weight[q] * width * e.length() * contact_pressure(e.seabed().law, e.gap(piece.a + width * four_gauss_xi[q]));
-  Cuts xi;
-  const int count = e.monotone_cuts(xi);
+  Cuts turn;
+  const int count = e.monotone_cuts(turn);
   for (int i = 0; i < count; ++i) {
-    const double x = std::clamp(xi[i], piece.a, piece.b), g = e.gap(x);
+    const double x = std::clamp(turn[i].xi, piece.a, piece.b), g = e.gap(x);
     if (g > out.largest_penetration) out.largest_penetration = g, out.largest_penetration_s = s0 + x * e.length();
   }
 }

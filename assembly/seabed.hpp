@@ -2,9 +2,10 @@
 //
 //   R_i -= int over the part in contact of  s_i f ds,    f = contact_force (seabed_law.hpp), s_i = shape functions
 //
-// The part in contact lies between the roots of the penetration g(xi) (and of g - delta where the law has a toe); each piece is
-// integrated by four Gauss points, exact for k g s_i on a plane bed (degree 6). Every element uses this one rule: a rule of its own for
-// elements that lie on the bed wholly would make the residual jump where an element begins to lift, and Newton could not end there.
+// The part in contact lies between the roots of the penetration g(xi) (and of g - delta where the law has a toe) and is cut at the lines of a
+// grid, where the bed has a kink; each piece is integrated by four Gauss points, exact for k g s_i on a plane bed (degree 6). Every element uses
+// this one rule: a rule of its own for elements that lie on the bed wholly would make the residual jump where an element begins to lift, and Newton
+// could not end there.
 // The derivative of the roots does not enter the tangent: f is continuous and zero where g is, so moving the end of the integral there
 // changes nothing; and where g = delta the pieces on both sides change by opposite amounts. (Damping without a toe is the exception:
 // it acts at once. Only its damping force at the root, c e.v, is then missing in the stiffness part.)

@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "assembly/arc.hpp"
+#include "assembly/bracketed_root.hpp"
 #include "assembly/mesh.hpp"
 
 namespace hawser {
 namespace {
 
-constexpr int substeps = 4;  // of an element, where the bed slopes
+constexpr double longest_way = 1.5;   // of an element in plan, of its length
+constexpr double resolution = 1e-15;  // of its length
 
 /// Where a line was laid from one end: in plan towards the other end, along an arc where it is longer than its way there and up.
 class Lay {
@@ -35,21 +37,39 @@ class Lay {
   bool from_;
 };
 
-/// Nodes of a line as it was laid, and its direction there. s: plan distance along the way.
+/// A place of a line on the bed and its direction there, away from the start.
+struct OnBed {
+  Vec3 r, t;
+};
+
+OnBed on_bed(const SeabedSurface& surface, const Lay& lay, double s) {
+  const Vec3 r = lay.at(s), t = lay.direction_at(s);
+  const SurfacePoint<double> here = surface.at(r.x(), r.y());
+  return {Vec3(r.x(), r.y(), here.height), Vec3(t.x(), t.y(), here.gradient[0] * t.x() + here.gradient[1] * t.y()).normalized()};
+}
+
+/// Strain in the middle of an element between two places whose slopes have unit length: there and at the nodes it is measured.
+double strain(bool bar, double l, const OnBed& a, const OnBed& b) {
+  const Vec3 chord = (b.r - a.r) / l;
+  return (bar ? chord : Vec3(1.5 * chord - 0.25 * (a.t + b.t))).norm() - 1.0;
+}
+
+/// Nodes of a line as it was laid, and its direction there. Every element is unstrained as the mesh sees it: were it as long as its way over the bed,
+/// bends that it cannot follow would compress it, and in a stiff line friction would hold that. s: plan distance along the way.
 void lay_out(const Line& line, const Lay& lay, Seabed& bed) {
   double s = 0.0;
+  OnBed last = on_bed(bed.surface, lay, s);
   for (int k = 0; k < line.nodes; ++k) {
     const int node = lay.from() ? k : line.nodes - 1 - k, before = lay.from() ? k - 1 : line.nodes - k;
-    const double l = k > 0 ? std::abs(line.s[node] - line.s[before]) : 0.0;
-    const auto on_bed = [&] {
-      const Vec3 r = lay.at(s), t = lay.direction_at(s);
-      const SurfacePoint<double> here = bed.surface.at(r.x(), r.y());
-      return std::pair{Vec3(r.x(), r.y(), here.height), Vec3(t.x(), t.y(), here.slope[0] * t.x() + here.slope[1] * t.y())};
-    };
-    for (int i = 0; i < substeps; ++i) s += l / substeps / on_bed().second.norm();
-    const auto [r, t] = on_bed();
-    bed.lay[line.first_node + node] = r;
-    bed.lay_slope[line.first_node + node] = (lay.from() ? 1.0 : -1.0) * t.normalized();
+    if (k > 0) {
+      const double l = std::abs(line.s[node] - line.s[before]), reach = longest_way * l;
+      const auto strain_at = [&](double ds) { return strain(line.family == Family::bar, l, last, on_bed(bed.surface, lay, s + ds)); };
+      const double far = strain_at(reach);
+      s += far > 0.0 ? bracketed_root(strain_at, 0.0, reach, strain_at(0.0), far, resolution * l) : l;  // the part that hangs is not laid
+      last = on_bed(bed.surface, lay, s);
+    }
+    bed.lay[line.first_node + node] = last.r;
+    bed.lay_slope[line.first_node + node] = (lay.from() ? 1.0 : -1.0) * last.t;
   }
 }
 

@@ -46,6 +46,14 @@ void add_friction(const SeabedLaw& law, const Normal& bed, double N, double dN, 
   const Vec3 w = law.friction_lateral * u + difference * t.dot(u) * t;
   Mat3 dw = law.friction_lateral * du + difference * t * (t.transpose() * du);
   out.force -= N * size / m * w;
+  if (kind == FrictionTangent::frozen) {
+    const double lateral = std::sqrt(law.friction_lateral), tt = t.squaredNorm();
+    const double more = tt > 0.0 ? (std::sqrt(law.friction_lateral + difference * tt) - lateral) / tt : 0.0;
+    const Mat3 plane = Mat3::Identity() - bed.e * bed.e.transpose() / bed.e.squaredNorm(),
+               root = (lateral * Mat3::Identity() + more * t * t.transpose()) * plane;
+    out.d_r -= N * size / m * root.transpose() * (Mat3::Identity() - u * u.transpose() / (m * m)) * root;
+    return;
+  }
   if (kind == FrictionTangent::exact) {
     const Mat3 across = (Mat3::Identity() - t * t.transpose()) / length;
     const auto turned = [&](const Mat3& dt) -> Mat3 { return difference * (t.dot(u) * dt + t * (u.transpose() * dt)); };
@@ -73,6 +81,7 @@ ContactForce contact_tangent(const SeabedLaw& law, const SurfacePoint<double>& s
     out.force = F * bed.e;
     out.d_r = bed.e * ((dN + c * dphi * rate) * bed.gap_gradient - c * phi * bed.de.transpose() * v).transpose() + F * bed.de;
     out.d_v = -c * phi * bed.e * bed.e.transpose();
+    if (friction == FrictionTangent::frozen) out.d_r = -dN * bed.e * bed.e.transpose() + 0.5 * F * (bed.de + bed.de.transpose());
   }
   if (lay) add_friction(law, bed, N, dN, r - *lay, a, friction, out);
   return out;

@@ -26,6 +26,8 @@ constexpr double loose_tolerance = 1e-6;   // theory 6.1, where the automatic on
 constexpr double loose_increment = 1e-4;   // of the length
 constexpr double floor_share = 0.25;       // of the load: T_f = 0.25 w L (theory 7.2)
 constexpr double guard_floor = 1e-5;       // of T_f, where a guarded Newton starts near a solution
+constexpr int way_steps = 300;             // of a motion from one of the models on the way of a continuation to the next
+constexpr int most_restless = 2;           // of these motions, that led to no equilibrium
 constexpr double way_tolerance = 1e-7;     // of the models on the way of a continuation
 constexpr double way_increment = 1e-5;     // of the length
 constexpr double relaxation_floor = 1e-2;  // of T_f
@@ -145,10 +147,17 @@ class StaticSolver {
 
   bool follow(StaticContinuation& way) {
     const Attempt attempts[] = {{0.0, false, true, 15}, {guard_floor * first_floor(), true, true, 100}};
+    int restless = has_free_end() && !model_.seabed ? most_restless : 0;  // what is hard there no motion helps either
     while (!way.at_end()) {
       const State before = state_;
       way.advance();
       if (reached(way, before, attempts)) continue;
+      if (restless < most_restless) {  // a branch of equilibria may have ended: the line jumps
+        state_ = before;
+        const Assembler next(way.model(), std::max(1, options_.threads));
+        if (comes_to_rest(next, way_steps, !way.at_end())) continue;
+        ++restless;
+      }
       state_ = before;
       if (exhausted() || !way.retreat()) return false;
     }
@@ -171,21 +180,26 @@ class StaticSolver {
     if (exhausted()) return false;
     state_ = start;
     bow_sideways(model_, state_);
-    StaticSystem system(assembler_, *linear_, tolerance_, 0.0, state_);
+    return comes_to_rest(assembler_, relaxation_steps, false) && report_.stable;
+  }
+
+  /// Set in motion where it is until it comes to rest, then Newton; true at an equilibrium.
+  bool comes_to_rest(const Assembler& assembler, int steps, bool on_the_way) {
+    if (exhausted()) return false;
+    StaticSystem system(assembler, *linear_, on_the_way ? way_tolerance : tolerance_, 0.0, state_);
     RelaxationOptions motion;
     motion.length = longest_line(model_);
     motion.floor = relaxation_floor * first_floor();
-    motion.max_steps = std::min(options_.max_iterations - report_.iterations, relaxation_steps);
+    motion.max_steps = std::min(options_.max_iterations - report_.iterations, steps);
     const NewtonReport result = relax(system, motion);
     report_.iterations += result.factorizations;
-    report(fmt::format("dynamic relaxation: {} after {} steps, residual {:.2g} N", result.converged() ? "at rest" : "in motion",
-                       result.factorizations, result.residual));
+    if (!on_the_way)
+      report(fmt::format("dynamic relaxation: {} after {} steps, residual {:.2g} N", result.converged() ? "at rest" : "in motion",
+                         result.factorizations, result.residual));
     const State left = state_;
-    if (!converges(assembler_, "Newton from where it was left", unfloored())) {
-      state_ = left;
-      if (!converges(assembler_, "guarded Newton from where it was left", {guard_floor * first_floor(), true, false, 100})) return false;
-    }
-    return report_.stable;
+    if (converges(assembler, "Newton from where it was left", {0.0, false, on_the_way})) return true;
+    state_ = left;
+    return converges(assembler, "guarded Newton from where it was left", {guard_floor * first_floor(), true, on_the_way, 100});
   }
 
   bool converges(const Assembler& assembler, const std::string& name, const Attempt& attempt) {

@@ -48,4 +48,12 @@ double SeabedSurface::highest_within(double x0, double x1, double y0, double y1)
   return highest;
 }
 
+std::optional<double> SeabedSurface::grid_line(int axis, double from, double to) const {
+  const std::vector<double>& rows = axis == 0 ? grid_.x : grid_.y;
+  if (level()) return std::nullopt;
+  const std::size_t a = cell(rows, from), b = cell(rows, to);
+  if (a == b) return std::nullopt;
+  return rows[a < b ? a + 1 : a];
+}
+
 }  // namespace hawser

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "assembly/scene.hpp"
@@ -42,6 +43,9 @@ class SeabedSurface {
 
   /// No part of the bed within this rectangle is higher.
   double highest_within(double x0, double x1, double y0, double y1) const;
+
+  /// The line of the grid between two places on an axis (0: x, 1: y), where the height has a kink: the one next to `from`, if there is any.
+  std::optional<double> grid_line(int axis, double from, double to) const;
 
  private:
   struct Corner {

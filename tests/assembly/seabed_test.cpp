@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <random>
 
 #include "assembly/assembler.hpp"
@@ -261,6 +262,35 @@ TEST_P(SeabedUnder, ElementsWithAndWithoutAJointTakeTheSameContact) {
   for (std::size_t i = 0; i < sum.size(); ++i) EXPECT_NEAR(r[i], sum[i], 1e-12 * 2.0e3);
 }
 
+// Where friction slides, the symmetric part of D (I - u u^T/m^2) has a negative eigenvalue if D is not a number; so has that of a normal force that
+// is not along the gradient of the penetration. Neither says that a line would leave its place.
+TEST(SeabedLaw, WhatStabilityTakesOfTheBedIsSymmetricAndNeverPullsALineFromItsPlace) {
+  const SeabedSurface surface(bumpy());
+  const Vec3 r(2.3, 0.2, surface.height(2.3, 0.2) - 0.03), along(0.8, 0.5, 0.1), still = Vec3::Zero();
+  for (const Vec3& u : {Vec3(0.001, 0.002, 0.0), Vec3(0.3, 0.2, 0.0), Vec3(-0.1, 0.9, 0.1)}) {
+    const Vec3 lay = r - u;
+    SurfacePoint<double> bed = surface.at(r.x(), r.y());
+    for (auto& row : bed.curvature) row[0] = row[1] = 0.0;  // a ridge does let a line go
+    const Mat3 stiffness = -contact_tangent(law(0, 0, 1.1, 0.15), bed, r, along, still, &lay, FrictionTangent::frozen).d_r;
+    const double size = stiffness.norm();
+    EXPECT_LT((stiffness - stiffness.transpose()).norm(), 1e-14 * size);
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Mat3>(stiffness).eigenvalues()[0], -1e-13 * size);
+  }
+}
+
+TEST(SeabedLaw, WhatStabilityTakesOfFrictionIsItsDerivativeWhereTheLineSlidesAlongOrAcrossOrSticks) {
+  const SeabedSurface level(-10.0);
+  const Vec3 r(5.0, 0.0, -10.1), along = Vec3::UnitX(), still = Vec3::Zero();
+  for (const Vec3& u : {Vec3(0.4, 0.0, 0.0), Vec3(0.0, -0.4, 0.0), Vec3(1e-9, 1e-9, 0.0)}) {
+    const Vec3 lay = r - u;
+    const auto of = [&](FrictionTangent kind) -> Mat3 {
+      return contact_tangent(law(0, 0, 1.1, 0.15), level.at(r.x(), r.y()), r, along, still, &lay, kind).d_r;
+    };
+    const Eigen::Matrix2d exact = of(FrictionTangent::exact).topLeftCorner<2, 2>(), frozen = of(FrictionTangent::frozen).topLeftCorner<2, 2>();
+    EXPECT_LT((exact - frozen).norm(), 1e-6 * exact.norm()) << u.transpose();  // the direction counts to 1e-3 squared: upright_slope
+  }
+}
+
 /// A level line of two elements of 4 m at a depth below the bed at each of its three nodes, straight between them.
 Model straight_model(SeabedLaw l = law(0, 0, 0, 0)) {
   SceneBuilder builder;
@@ -307,6 +337,46 @@ TEST(Seabed, ForceIsContinuousWhereAnElementBeginsToLift) {
   };
   const auto below = lifted(-10.0 - 1e-9), above = lifted(-10.0 + 1e-9);
   for (std::size_t i = 0; i < below.size(); ++i) EXPECT_NEAR(below[i], above[i], 2e-9 * 2.0e3 * 8.0);  // stiffness times 2e-9 m over 8 m
+}
+
+// Newton cannot end at a jump. The largest step of the force along a path is halved in length until a continuous force would leave nothing of it.
+TEST(Seabed, ForceIsContinuousWhereALineMovesOverTheLinesOfAGrid) {
+  SceneBuilder builder;
+  builder.type(test::line_type("rope", 1e8, 10.0)).fixed("a", {0, 0, -10}).fixed("b", {8, 0, -10}).line("a", "b", ModelChoice::cable);
+  builder.section("rope", 8.0, 1);
+  builder.scene.environment.seabed.bathymetry = bumpy();
+  builder.scene.environment.seabed.stiffness = 2.0e3;
+  const Model model = build_model(builder.scene);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int path = 0; path < 100; ++path) {
+    State ends[2] = {model.make_state(), model.make_state()};
+    for (State& end : ends)
+      for (int node = 0; node < 2; ++node) {
+        Eigen::Map<Vec3>(&end.q[model.dof(0, node)]) = Vec3(8.0 * node + u(random), u(random), -9.8 + 0.3 * u(random));
+        Eigen::Map<Vec3>(&end.q[model.dof(0, node) + 3]) = Vec3(1.0, 0.2 * u(random), 0.2 * u(random));
+      }
+    State state = model.make_state();
+    const auto force = [&](double x) -> Eigen::VectorXd {
+      for (std::size_t i = 0; i < state.q.size(); ++i) state.q[i] = ends[0].q[i] + x * (ends[1].q[i] - ends[0].q[i]);
+      std::vector<double> r(model.unknowns, 0.0);
+      add_seabed(model, state, r);
+      return Eigen::Map<Eigen::VectorXd>(r.data(), static_cast<Eigen::Index>(r.size()));
+    };
+    double a = 0.0, b = 1.0;
+    for (int cuts = 0; b - a > 1e-12; ++cuts) {
+      const int parts = cuts == 0 ? 200 : 2;
+      double largest = -1.0, from = a;
+      for (int k = 0; k < parts; ++k) {
+        const double x = a + k * (b - a) / parts, step = (force(x + (b - a) / parts) - force(x)).norm();
+        if (step > largest) largest = step, from = x;
+      }
+      b = from + (b - a) / parts;
+      a = from;
+    }
+    // Stiffness times 3 m over 8 m and 1e-12 of the path, and the roots of the penetration to 1e-15 of 8 m.
+    EXPECT_LT((force(b) - force(a)).norm(), 1e-6) << "path " << path;
+  }
 }
 
 TEST(Seabed, ADipBetweenTwoNodesAboveTheBedIsFound) {
@@ -371,6 +441,29 @@ TEST(Seabed, ALineLongerThanItsWayIsLaidInAnArcThatEndsBelowItsOtherEnd) {
   EXPECT_NEAR((lay[180] - Vec3(60, 0, -50)).norm(), 0.0, 1e-9);                        // 90 m on the bed, 30 m up
   for (int i = 0; i < 180; ++i) EXPECT_NEAR((lay[i + 1] - lay[i]).norm(), 0.5, 1e-5);  // chord of an arc of radius 35 m: 4e-6 shorter
   EXPECT_GT(lay[90].y(), 20.0);
+}
+
+// A stiff line of which friction holds strains of 1e-6 is compressed by many times the weight of an element.
+TEST(Seabed, ALineIsLaidWithoutStrainInTheElementsThatTheMeshHas) {
+  for (const bool bar : {false, true}) {
+    SceneBuilder builder;
+    builder.dry().type(test::line_type("t", 1e9, 12.0)).fixed("a", {0, 0, -50}).fixed("b", {60, 10, -20.0}).line("a", "b").section("t", 120.0, 40);
+    builder.scene.lines[0].model = bar ? ModelChoice::bar : ModelChoice::cable;
+    // Bent in plan, over a twisted slope with ridges and valleys every 20 m.
+    builder.scene.environment.seabed.bathymetry =
+        BathymetryGrid{{0, 20, 40, 60}, {0, 15, 30, 60}, {-50, -52, -51, -47, -49, -51, -49, -48, -50, -53, -51, -49, -48, -50, -49, -47}};
+    builder.scene.environment.seabed.friction_axial = 0.5;
+    const Model model = build_model(builder.scene);
+    const std::vector<Vec3>&r = model.seabed->lay, &t = model.seabed->lay_slope;
+    const int laid = 28;  // of the elements; the last 33 m hang from the other end
+    for (int i = 0; i < laid; ++i) {
+      const Vec3 chord = (r[i + 1] - r[i]) / 3.0;
+      const Vec3 middle = bar ? chord : Vec3(1.5 * chord - 0.25 * (t[i] + t[i + 1]));                    // r' of the cubic in the middle
+      EXPECT_NEAR(middle.norm(), 1.0, 1e-13) << "element " << i << (bar ? " of a bar" : " of a cable");  // rounding of places of 100 m
+      EXPECT_NEAR(t[i].norm(), 1.0, 1e-14);
+      EXPECT_NEAR(model.seabed->surface.height(r[i].x(), r[i].y()), r[i].z(), 1e-13);
+    }
+  }
 }
 
 TEST(BracketedRoot, FindsRootsOfFlatAndSteepFunctions) {
