@@ -51,7 +51,7 @@ constexpr int most_kinks = 24;  // lines of the grid that an element crosses
 constexpr int smooth_pieces = samples + most_kinks;
 struct Cut {
   double xi;
-  bool kink = false;  // of the bed
+  bool kink;  // of the bed
 };
 using Cuts = std::array<Cut, 2 * smooth_pieces + 1>;
 constexpr int most_pieces = 6 * smooth_pieces + 1;  // cut at two levels of the penetration and at kinks
@@ -135,7 +135,7 @@ class ContactElement {
 
 int ContactElement::smooth_cuts(std::array<Cut, smooth_pieces + 1>& cut) const {
   int count = 0, kinks = 0;
-  cut[count++] = {0.0};
+  cut[count++] = {0.0, false};
   Vec3 left = q_.col(0);
   for (int i = 1; i <= samples; ++i) {
     const double a = static_cast<double>(i - 1) / samples, b = static_cast<double>(i) / samples;
@@ -150,7 +150,7 @@ int ContactElement::smooth_cuts(std::array<Cut, smooth_pieces + 1>& cut) const {
       }
     }
     std::sort(cut.begin() + first, cut.begin() + count, [](const Cut& p, const Cut& q) { return p.xi < q.xi; });
-    cut[count++] = {b};
+    cut[count++] = {b, false};
     left = right;
   }
   return count;
@@ -158,7 +158,7 @@ int ContactElement::smooth_cuts(std::array<Cut, smooth_pieces + 1>& cut) const {
 
 int ContactElement::monotone_cuts(Cuts& cut) const {
   int count = 0;
-  cut[count++] = {0.0};
+  cut[count++] = {0.0, false};
   if (!bed_.surface.level()) {
     std::array<Cut, smooth_pieces + 1> smooth;
     const int pieces = smooth_cuts(smooth) - 1;
@@ -166,7 +166,7 @@ int ContactElement::monotone_cuts(Cuts& cut) const {
       const double width = smooth[i + 1].xi - smooth[i].xi, a = smooth[i].xi + inside * width, b = smooth[i + 1].xi - inside * width;
       const double left = deepening(a), right = deepening(b);
       if ((left > 0.0) != (right > 0.0) && b > a)
-        cut[count++] = {bracketed_root([&](double x) { return deepening(x); }, a, b, left, right, root_resolution)};
+        cut[count++] = {bracketed_root([&](double x) { return deepening(x); }, a, b, left, right, root_resolution), false};
       cut[count++] = smooth[i + 1];
     }
     return count;
@@ -181,10 +181,10 @@ int ContactElement::monotone_cuts(Cuts& cut) const {
       double roots[2] = {a != 0.0 ? h / a : -1.0, h != 0.0 ? c / h : -1.0};
       if (roots[0] > roots[1]) std::swap(roots[0], roots[1]);
       for (double x : roots)
-        if (x > 0.0 && x < 1.0) cut[count++] = {x};
+        if (x > 0.0 && x < 1.0) cut[count++] = {x, false};
     }
   }
-  cut[count++] = {1.0};
+  cut[count++] = {1.0, false};
   return count;
 }
 
