@@ -153,7 +153,7 @@ double distance(const Model& model, const State& a, const State& b) {
 
 double potential_energy(const Model& model, const State& state) {
   const Energies energies = observe_energies(model, state);
-  double energy = energies.axial + energies.bending + energies.potential;
+  double energy = energies.axial + energies.bending + energies.potential + energies.bed;
   for (const Body& body : model.bodies) energy -= body.force(0.0).dot(Eigen::Map<const Vec3>(&state.q[model.dof(body.line, body.node)]));
   for (const SpreadLoad& spread : model.spread_loads) {
     const Line& line = model.lines[spread.line];

@@ -41,8 +41,8 @@ struct ProbeReport {
 ProbeReport probe_equilibria(const Assembler& assembler, const StaticOptions& options, const State& known, const StaticReport& report,
                              const ProbeOptions& probe);
 
-/// Strain energy and the potential of wet weights and forces at t = 0 [J]: what a stable state of a line without bed and drag has least of. The
-/// energy of a bed (half the force times the penetration) is not in it.
+/// Strain energy, that of the normal force of the bed, and the potential of wet weights and forces at t = 0 [J]: what a stable state has least of
+/// where there is no drag, no friction and no uneven bed (seabed_law.hpp). Friction and drag have no potential and no part in it.
 double potential_energy(const Model& model, const State& state);
 
 }  // namespace hawser
