@@ -43,7 +43,7 @@ class TrialCheck {
 
   /// What is wrong with the answer; `loose`: of one that the solver says it took to 1e-6 only.
   std::optional<std::string> complaint(bool loose = false) const {
-    for (const auto& check : {equations(loose ? 1e-6 : 1e-10), stability(), balance(), hubs(), closed_form()})
+    for (const auto& check : {equations(loose ? 1e-6 : 1e-10), stability(), balance(), hubs(loose ? 1e-6 : 1e-10), closed_form()})
       if (check) return check;
     return std::nullopt;
   }
@@ -84,14 +84,15 @@ class TrialCheck {
   }
 
   /// What the lines exert on a hub, from the end forces of their elements.
-  Complaint hubs() const {
+  Complaint hubs(double tolerance) const {
     if (model_.hubs.empty()) return std::nullopt;
+    const double allowed = 2.0 * std::max(tolerance * reference_, unbalanced());
     const std::vector<PointResult> points = observe_points(model_, state_);
     for (const Hub& hub : model_.hubs) {
       Vec3 force = points[hub.point].force;
       for (const Body& body : model_.bodies)
         if (body.line == hub.ends[0].line && body.node == hub.ends[0].node) force += body_force(model_, body, points[hub.point].position.z());
-      if (force.norm() > 2.0 * unbalanced()) return fmt::format("\"{}\" out of balance by {:.2e} N", model_.points[hub.point].name, force.norm());
+      if (force.norm() > allowed) return fmt::format("\"{}\" out of balance by {:.2e} N", model_.points[hub.point].name, force.norm());
       for (const Support& end : hub.ends)
         if (node(end.line, end.node, 0) != points[hub.point].position) return fmt::format("lines apart at \"{}\"", model_.points[hub.point].name);
     }

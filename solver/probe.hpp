@@ -6,7 +6,8 @@
 //   u(s) = A sum_{k=1}^{3} c_k sin(k pi s/L)      (a free end: sin((k - 1/2) pi s/L) from the held one),
 //
 // A = 1, 3, 10 or 30 % of the length L and c_k random vectors of mean size 1/k, in the vertical plane of the line in every other turn and in space in
-// the rest. The random numbers depend on the seed alone. Two states are the same where no node of one lies further than
+// the rest. Points where lines meet move by A L c, mirrored ones also to the other side of the points that their lines lead to, and take their lines
+// with them, linearly in s. The random numbers depend on the seed alone. Two states are the same where no node of one lies further than
 // `same` times the longest line from where it lies in the other.
 // A probe can show that there is another equilibrium; it cannot show that there is none.
 #pragma once

@@ -38,7 +38,7 @@ Fall fall_on_the_bed(double step) {
     const Energies now = observe_energies(model, sample.state);
     fall.drift = std::max(fall.drift, std::abs(now.total() - start));
     fall.on_bed = std::max(fall.on_bed, now.bed);
-    fall.moving = std::max(fall.turned, now.kinetic);
+    fall.moving = std::max(fall.moving, now.kinetic);
   }
   return fall;
 }
