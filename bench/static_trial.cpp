@@ -98,5 +98,5 @@ int main(int count, char** words) {
     return i < args.size() ? std::strtoull(args[i].c_str(), nullptr, 10) : otherwise;
   };
   if (!args.empty() && args[0] == "--scene") return one_scene(draw, number(1, 0), number(2, 1));
-  return all_scenes(draw, number(0, networks ? 2000 : 10000), number(1, 1));
+  return all_scenes(draw, number(0, networks ? 1400 : 10000), number(1, 1));
 }
