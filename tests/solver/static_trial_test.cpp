@@ -1,4 +1,4 @@
-// Scenes of the public trial of statics (bench/README.md): the first 500 of one line, and 98 networks of a seed of which these are solved (of all
+// Scenes of the public trial of statics (bench/README.md): the first 500 of one line, and 56 networks of a seed of which these are solved (of all
 // networks some are not: bench/README.md says how many). None fails, none is wrong. ./dev bench runs 10 000 and 1400.
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::vector<Slice> slices() {
   std::vector<Slice> all;
   for (int kind = 0; kind < TrialScenes::kinds; ++kind) all.push_back({draw_trial, seed, kind, TrialScenes::kinds, 500});
   for (int kind = 0; kind < TrialNetworks::kinds; ++kind)
-    all.push_back({draw_network, network_seed, kind, TrialNetworks::kinds, 7 * TrialNetworks::kinds});
+    all.push_back({draw_network, network_seed, kind, TrialNetworks::kinds, 4 * TrialNetworks::kinds});
   return all;
 }
 
