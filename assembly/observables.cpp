@@ -289,6 +289,7 @@ void add_element_energies(const Model& model, const State& state, int line, int 
     const double kappa = material_curvature(e, 0.5 + gauss_eta[q]);
     sum.bending += 0.5 * p.EI[element] * l * gauss_weight[q] * kappa * kappa;
   }
+  sum.bed += seabed_energy(model, state, line, element);
 }
 
 }  // namespace

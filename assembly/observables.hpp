@@ -51,9 +51,10 @@ std::vector<PointResult> observe_points(const Model& model, const State& state);
 
 struct Energies {
   double kinetic = 0.0, axial = 0.0, bending = 0.0, potential = 0.0;  // J; potential of the wet weight, zero at z = 0
+  double bed = 0.0;                                                   // J; of the normal force; friction and damping have none
   Vec3 momentum = Vec3::Zero();                                       // kg m/s
   Vec3 angular_momentum = Vec3::Zero();                               // kg m2/s about the origin
-  double total() const { return kinetic + axial + bending + potential; }
+  double total() const { return kinetic + axial + bending + potential + bed; }
 };
 
 Energies observe_energies(const Model& model, const State& state);

@@ -352,6 +352,19 @@ Vec3 seabed_force(const Model& model, const State& state, int line, int element,
   return force_at(e, n, columns(x.v) * n.s, false, false).force;
 }
 
+double seabed_energy(const Model& model, const State& state, int line, int element) {
+  if (!model.seabed) return 0.0;
+  const ContactElement e(model, line, element, columns(element_state(model, state, line, element).q));
+  if (!e.near()) return 0.0;
+  double energy = 0.0;
+  for (const Piece& piece : e.wet(true)) {
+    const double width = piece.b - piece.a;
+    for (int q = 0; q < points; ++q)
+      energy += four_gauss_weight[q] * width * e.length() * contact_energy(e.seabed().law, e.gap(piece.a + width * four_gauss_xi[q]));
+  }
+  return energy;
+}
+
 SeabedContact observe_seabed(const Model& model, const State& state, int line) {
   SeabedContact out;
   if (!model.seabed) return out;

@@ -34,6 +34,9 @@ bool add_contact(const Model& model, int line, int element, const ElementState<d
 /// Force of the bed [N/m] at xi of an element.
 Vec3 seabed_force(const Model& model, const State& state, int line, int element, double xi);
 
+/// Energy of the normal force of the bed on an element [J]: the integral of U (seabed_law.hpp).
+double seabed_energy(const Model& model, const State& state, int line, int element);
+
 struct SeabedContact {
   std::vector<double> touchdown;                                  // m, arc lengths where the line meets or leaves the bed
   double length = 0.0;                                            // m, unstretched, in contact

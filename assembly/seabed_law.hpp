@@ -5,11 +5,16 @@
 //   N(g) = 0 (g <= 0),  k g^2/2 delta (g < delta),  k (g - delta/2)
 //   normal force    max(0, N - c phi e.v) e,   phi = min(g/delta, 1)
 //   friction        -N |e| D u/sqrt(u.u + d^2),   D = mu_l I + (mu_a - mu_l) t t^T
+//   energy          U(g) = int_0^g N:  k g^3/6 delta (g < delta),  k (g^2 - g delta + delta^2/3)/2      [J/m]
 //
 // On a level bed the force is k max(g, 0), upward; on a slope it has that vertical part and is normal to the bed. u is the displacement
 // from where the line was laid, projected on the bed (a line that sinks normally to the bed does not slide); t the direction of the line along the
 // bed; d the elastic slip: friction is a spring of mu N/d for |u| << d and mu N beyond. It depends on the state alone (statics): no velocity, no
 // history.
+//
+// U is the energy of the normal force where e is the gradient of z - z_bed: on a level bed and on a plane. Over soundings that are no plane e is
+// smoother than the bed (seabed_surface.hpp), so that the normal force has no exact potential; U is then what the penetration alone stores. Neither
+// damping nor friction, whose force depends on N as well as on u, has one; U leaves both out.
 #pragma once
 
 #include "assembly/environment/seabed_surface.hpp"
@@ -34,6 +39,13 @@ S contact_pressure(const SeabedLaw& law, const S& g) {
   if (!(value_of(g) > 0.0)) return S(0.0);
   if (value_of(g) < law.smoothing) return S(0.5 * law.stiffness / law.smoothing) * g * g;
   return S(law.stiffness) * (g - S(0.5 * law.smoothing));
+}
+
+/// U(g) [J/m].
+inline double contact_energy(const SeabedLaw& law, double g) {
+  if (!(g > 0.0)) return 0.0;
+  if (g < law.smoothing) return law.stiffness * g * g * g / (6.0 * law.smoothing);
+  return 0.5 * law.stiffness * (g * (g - law.smoothing) + law.smoothing * law.smoothing / 3.0);
 }
 
 /// dN/dg for g > 0.

@@ -2,6 +2,7 @@
 //
 //   hawser_static_trial [SCENES [SEED]]          a table by kind, and every scene that failed or came out wrong
 //   hawser_static_trial --scene NUMBER [SEED]    one scene with its stages
+//   hawser_static_trial --networks ...           the same of networks instead of one line
 //
 // Exit code 1 if any failed.
 #include <fmt/format.h>
@@ -49,20 +50,22 @@ void print_stages(const TrialOutcome& outcome) {
     fmt::print("  {} (\"{}\", s = {:.6g} m)\n  cause: {}\n  try: {}\n", failure.what, failure.line, failure.s, failure.cause, failure.remedy);
 }
 
-int one_scene(std::uint64_t number, std::uint64_t seed) {
-  const Trial trial = draw_trial(seed, number);
+using Draw = Trial (*)(std::uint64_t seed, std::uint64_t number);
+
+int one_scene(Draw draw, std::uint64_t number, std::uint64_t seed) {
+  const Trial trial = draw(seed, number);
   const TrialOutcome outcome = run_trial(trial);
   fmt::print("scene {} of seed {}: {}, {} factorizations, {:.2f} ms\n", number, seed, trial.kind, outcome.factorizations, 1e3 * outcome.seconds);
   print_stages(outcome);
   return !outcome.converged || outcome.wrong;
 }
 
-int all_scenes(std::uint64_t scenes, std::uint64_t seed) {
+int all_scenes(Draw draw, std::uint64_t scenes, std::uint64_t seed) {
   std::map<std::string, Tally> kinds;
   std::vector<std::string> order, complaints;
   Tally all;
   for (std::uint64_t number = 0; number < scenes; ++number) {
-    const Trial trial = draw_trial(seed, number);
+    const Trial trial = draw(seed, number);
     const TrialOutcome outcome = run_trial(trial);
     if (!kinds.contains(trial.kind)) order.push_back(trial.kind);
     kinds[trial.kind].add(outcome);
@@ -87,10 +90,13 @@ int all_scenes(std::uint64_t scenes, std::uint64_t seed) {
 }  // namespace
 
 int main(int count, char** words) {
-  const std::vector<std::string> args(words + 1, words + count);
+  std::vector<std::string> args(words + 1, words + count);
+  const bool networks = !args.empty() && args[0] == "--networks";
+  if (networks) args.erase(args.begin());
+  const Draw draw = networks ? draw_network : draw_trial;
   const auto number = [&](std::size_t i, std::uint64_t otherwise) {
     return i < args.size() ? std::strtoull(args[i].c_str(), nullptr, 10) : otherwise;
   };
-  if (!args.empty() && args[0] == "--scene") return one_scene(number(1, 0), number(2, 1));
-  return all_scenes(number(0, 10000), number(1, 1));
+  if (!args.empty() && args[0] == "--scene") return one_scene(draw, number(1, 0), number(2, 1));
+  return all_scenes(draw, number(0, networks ? 1400 : 10000), number(1, 1));
 }

@@ -3,9 +3,11 @@
 //   equations    the residual, assembled anew, is below 1e-10 of the largest reaction (or of what rounding leaves)
 //   stability    the elastic tangent has no negative pivot, or no part of the line is compressed
 //   balance      reactions + weight + bodies + drag + bed = 0, the loads integrated here along the shape
+//   hubs         the end forces of the lines that meet at a free point and the load there = 0
 //   catenary     closed form: span under the computed end force, and the minimum of the energy from its dual,
 //                  E = F(L).D - int ( |F| + |F|^2/2EA ) ds,   F = F0 - q s
 //   hanging      closed form: straight, tension = what hangs below
+//   equal legs   closed form: the free point is on their axis
 #pragma once
 
 #include <fmt/format.h>
@@ -19,6 +21,7 @@
 #include "assembly/assembler.hpp"
 #include "assembly/observables.hpp"
 #include "assembly/seabed.hpp"
+#include "bench/trial_networks.hpp"
 #include "bench/trial_scenes.hpp"
 #include "solver/norms.hpp"
 #include "solver/static_start_catenary.hpp"
@@ -30,8 +33,7 @@ namespace hawser::bench {
 
 class TrialCheck {
  public:
-  TrialCheck(const Trial& trial, const Model& model, const State& state)
-      : trial_(trial), model_(model), state_(state), line_(model.lines[0]), residual_(model.unknowns) {
+  TrialCheck(const Trial& trial, const Model& model, const State& state) : trial_(trial), model_(model), state_(state), residual_(model.unknowns) {
     const Assembler assembler(model);
     assembler.residual(state, residual_);
     reference_ = reference_force(model, residual_);
@@ -41,7 +43,7 @@ class TrialCheck {
 
   /// What is wrong with the answer; `loose`: of one that the solver says it took to 1e-6 only.
   std::optional<std::string> complaint(bool loose = false) const {
-    for (const auto& check : {equations(loose ? 1e-6 : 1e-10), stability(), balance(), closed_form()})
+    for (const auto& check : {equations(loose ? 1e-6 : 1e-10), stability(), balance(), hubs(loose ? 1e-6 : 1e-10), closed_form()})
       if (check) return check;
     return std::nullopt;
   }
@@ -72,13 +74,29 @@ class TrialCheck {
     const Vec3 fine = loads(20), coarse = loads(10);
     const double error = (reactions_ + fine).norm();
     // Twenty and ten midpoints an element: their difference bounds what the integration leaves, and the kernels' own three points.
-    const double allowed = line_.nodes * unbalanced() + 50.0 * (fine - coarse).norm();
+    const double allowed = model_.total_nodes() * unbalanced() + 50.0 * (fine - coarse).norm();
     // The kernels' own points: three for drag where the line bends within an element, four for friction that turns round within one. Midpoints
     // of ours where a line leaves the bed.
     double kernel = 0.02 * drag_;
     if (model_.seabed) kernel += (0.02 + 2.0 * std::max(model_.seabed->law.friction_axial, model_.seabed->law.friction_lateral)) * heaviest_element();
     if (error <= allowed + kernel) return std::nullopt;
     return fmt::format("out of balance by {:.2e} N of {:.2e} N", error, reference_);
+  }
+
+  /// What the lines exert on a hub, from the end forces of their elements.
+  Complaint hubs(double tolerance) const {
+    if (model_.hubs.empty()) return std::nullopt;
+    const double allowed = 2.0 * std::max(tolerance * reference_, unbalanced());
+    const std::vector<PointResult> points = observe_points(model_, state_);
+    for (const Hub& hub : model_.hubs) {
+      Vec3 force = points[hub.point].force;
+      for (const Body& body : model_.bodies)
+        if (body.line == hub.ends[0].line && body.node == hub.ends[0].node) force += body_force(model_, body, points[hub.point].position.z());
+      if (force.norm() > allowed) return fmt::format("\"{}\" out of balance by {:.2e} N", model_.points[hub.point].name, force.norm());
+      for (const Support& end : hub.ends)
+        if (node(end.line, end.node, 0) != points[hub.point].position) return fmt::format("lines apart at \"{}\"", model_.points[hub.point].name);
+    }
+    return std::nullopt;
   }
 
   double heaviest_element() const {
@@ -92,88 +110,113 @@ class TrialCheck {
   Vec3 loads(int points) const {
     Vec3 sum = Vec3::Zero();
     drag_ = 0.0;
-    for (const Body& body : model_.bodies) sum += body_force(model_, body, state_.q[model_.dof(0, body.node) + 2]);
+    for (const Body& body : model_.bodies) sum += body_force(model_, body, node(body.line, body.node, 0).z());
     for (const SpreadLoad& spread : model_.spread_loads) sum += spread.share * spread.force(0.0);
-    for (int i = 0; i < line_.elements; ++i) {
-      const int e = line_.first_element + i;
-      const double l = model_.element.length[e];
-      sum -= l * model_.element.weight[e] * Vec3::UnitZ();
-      for (int k = 0; k < points; ++k) {
-        const double xi = (k + 0.5) / points;
-        const auto [r, slope] = place(i, xi);
-        const Vec3 drag = drag_density(model_, e, slope.normalized(), r.z());
-        drag_ += l / points * drag.norm();
-        sum += l / points * drag;
-        if (model_.seabed) sum += l / points * seabed_force(model_, state_, 0, i, xi);
-      }
+    for (int line = 0; line < static_cast<int>(model_.lines.size()); ++line)
+      for (int i = 0; i < model_.lines[line].elements; ++i) sum += loads_on(line, i, points);
+    return sum;
+  }
+
+  Vec3 loads_on(int line, int i, int points) const {
+    const int e = model_.lines[line].first_element + i;
+    const double l = model_.element.length[e];
+    Vec3 sum = -l * model_.element.weight[e] * Vec3::UnitZ();
+    for (int k = 0; k < points; ++k) {
+      const double xi = (k + 0.5) / points;
+      const auto [r, slope] = place(line, i, xi);
+      const Vec3 drag = drag_density(model_, e, slope.normalized(), r.z());
+      drag_ += l / points * drag.norm();
+      sum += l / points * drag;
+      if (model_.seabed) sum += l / points * seabed_force(model_, state_, line, e, xi);
     }
     return sum;
   }
 
+  /// Position (offset 0) or slope (3) at a node.
+  Vec3 node(int line, int node, int offset) const { return Eigen::Map<const Vec3>(&state_.q[model_.dof(line, node) + offset]); }
+
   /// Position and slope within an element of the line.
-  std::pair<Vec3, Vec3> place(int i, double x) const {
-    const auto at = [&](int node, int offset) { return Vec3(Eigen::Map<const Vec3>(&state_.q[model_.dof(0, node) + offset])); };
-    const double l = model_.element.length[line_.first_element + i];
-    const Vec3 a = at(i, 0), b = at(i + 1, 0), chord = (b - a) / l;
-    if (line_.family == Family::bar) return {a + x * (b - a), chord};
-    const Vec3 p = at(i, 3), q = at(i + 1, 3);
+  std::pair<Vec3, Vec3> place(int line, int i, double x) const {
+    const double l = model_.element.length[model_.lines[line].first_element + i];
+    const Vec3 a = node(line, i, 0), b = node(line, i + 1, 0), chord = (b - a) / l;
+    if (model_.lines[line].family == Family::bar) return {a + x * (b - a), chord};
+    const Vec3 p = node(line, i, 3), q = node(line, i + 1, 3);
     const Vec3 r = a + l * (x * chord + x * (1 - x) * ((1 - x) * (p - chord) - x * (q - chord)));
     return {r, chord + (1 - x) * (1 - 3 * x) * (p - chord) + x * (3 * x - 2) * (q - chord)};
   }
 
   Complaint closed_form() const {
-    if (trial_.known == Known::catenary) return catenary();
+    if (trial_.known == Known::nothing) return std::nullopt;
     if (trial_.known == Known::hanging) return hanging();
-    return std::nullopt;
+    double energy = 0.0, allowed = 0.0;
+    for (int line = 0; line < static_cast<int>(model_.lines.size()); ++line)
+      if (const auto complaint = catenary(line, energy, allowed)) return complaint;
+    if (const auto complaint = energies(energy, allowed)) return complaint;
+    return trial_.known == Known::equal_legs ? on_the_axis() : std::nullopt;
   }
 
-  Complaint catenary() const {
-    const double w = model_.element.weight[0], L = line_.length, EA = model_.element.EA[0], l = L / line_.elements;
-    const Vec3 from = model_.points[line_.from].position, chord = model_.points[line_.to].position - from;
+  /// Also adds the energy of the line, and what it may be off.
+  Complaint catenary(int index, double& energy, double& energy_allowed) const {
+    const Line& line = model_.lines[index];
+    const int e = line.first_element;
+    const double w = model_.element.weight[e], L = line.length, EA = model_.element.EA[e], l = L / line.elements;
+    const Vec3 from = node(index, 0, 0), chord = node(index, line.nodes - 1, 0) - from;
     const CatenarySegment whole{L, EA, -w * Vec3::UnitZ(), Vec3::Zero()};
     const EndForce exact = solve_end_force({whole}, chord);
-    const Vec3 F = observe_line(model_, state_, 0).force_from;
-    const double order = line_.family == Family::bar ? 2.0 : 4.0, H = exact.force.head<2>().norm();
+    const Vec3 F = observe_line(model_, state_, index).force_from;
+    const double order = line.family == Family::bar ? 2.0 : 4.0, H = exact.force.head<2>().norm();
     const double turn = std::abs(w) * l / H;  // of the line within an element at its lowest point
     if (!trial_.degenerate && turn < 0.5) {
       const double gap = (catenary_span(whole, F, L) - chord).norm(),
-                   allowed = L * (1e-7 + std::pow(turn, order)) + line_.nodes * unbalanced() * catenary_compliance(whole, F, L).norm();
+                   allowed = L * (1e-7 + std::pow(turn, order)) + line.nodes * unbalanced() * catenary_compliance(whole, F, L).norm();
       if (gap > allowed) return fmt::format("misses the catenary by {:.2e} m of {:.2e} m allowed", gap, allowed);
     }
     const double error = (F - exact.force).norm();
     // A bight that turns within an element leaves the weight of that element open.
     if (turn >= 0.5 && error > 2.0 * std::abs(w) * l) return fmt::format("end force off by {:.3g} weights of an element", error / std::abs(w) / l);
-    return energy(whole, exact.force, from, chord);
+    energy += least_energy(whole, exact.force, from, chord);
+    energy_allowed += 1e-7 * std::abs(w) * L * (L + chord.norm() + std::abs(from.z())) + 4.0 * std::abs(w) * l * l;
+    return std::nullopt;
   }
 
-  Complaint energy(const CatenarySegment& whole, const Vec3& F0, const Vec3& from, const Vec3& chord) const {
+  double least_energy(const CatenarySegment& whole, const Vec3& F0, const Vec3& from, const Vec3& chord) const {
     constexpr int panels = 20000;
     double dual = 0.0;
     for (int k = 0; k < panels; ++k) {
       const double T = (F0 - (k + 0.5) / panels * whole.length * whole.load).norm();
       dual += whole.length / panels * (T + 0.5 * T * T / whole.EA);
     }
-    const double w = -whole.load.z(), l = whole.length / line_.elements;
-    const double exact = (F0 - whole.length * whole.load).dot(chord) - dual + w * whole.length * from.z();
-    const Energies found = observe_energies(model_, state_);
+    return (F0 - whole.length * whole.load).dot(chord) - dual - whole.load.z() * whole.length * from.z();
+  }
+
+  Complaint energies(double exact, double allowed) const {
+    Energies found = observe_energies(model_, state_);
+    for (const Hub& hub : model_.hubs)
+      for (const Body& body : model_.bodies)
+        if (body.line == hub.ends[0].line && body.node == hub.ends[0].node) found.potential -= body.wet_weight * node(body.line, body.node, 0).z();
     const double difference = found.axial + found.potential - exact;
-    const double allowed =
-        1e-7 * (std::abs(w) * whole.length * (whole.length + chord.norm() + std::abs(from.z())) + found.axial) + 4.0 * std::abs(w) * l * l;
-    if (std::abs(difference) <= allowed) return std::nullopt;
-    return fmt::format("energy off by {:.2e} J of {:.2e} J allowed", difference, allowed);
+    if (std::abs(difference) <= allowed + 1e-7 * found.axial) return std::nullopt;
+    return fmt::format("energy off by {:.2e} J of {:.2e} J allowed", difference, allowed + 1e-7 * found.axial);
+  }
+
+  Complaint on_the_axis() const {
+    const double off = node(model_.hubs[0].ends[0].line, model_.hubs[0].ends[0].node, 0).head<2>().norm();
+    if (off <= 1e-6 * model_.lines[0].length) return std::nullopt;
+    return fmt::format("{:.2e} m off the axis", off);
   }
 
   Complaint hanging() const {
-    const double w = model_.element.weight[0], L = line_.length, EA = model_.element.EA[0];
+    const Line& line = model_.lines[0];
+    const double w = model_.element.weight[0], L = line.length, EA = model_.element.EA[0];
     const double body = model_.bodies.empty() ? 0.0 : model_.bodies[0].wet_weight, top = w * L + body;
     const LineResult found = observe_line(model_, state_, 0);
-    const double tension = line_.from_free ? found.tension_to : found.tension_from;
-    if (std::abs(tension - std::abs(top)) > 1e-8 * std::abs(top) + line_.nodes * unbalanced())
+    const double tension = line.from_free ? found.tension_to : found.tension_from;
+    if (std::abs(tension - std::abs(top)) > 1e-8 * std::abs(top) + line.nodes * unbalanced())
       return fmt::format("top tension {:.8g} N instead of {:.8g} N", tension, std::abs(top));
     const double sign = top > 0.0 ? -1.0 : 1.0, reach = L + (std::abs(body) * L + 0.5 * std::abs(w) * L * L) / EA;
-    const int end = line_.from_free ? 0 : line_.nodes - 1;
-    const Vec3 r = Eigen::Map<const Vec3>(&state_.q[model_.dof(0, end)]);
-    const double off = (r - model_.points[line_.from_free ? line_.to : line_.from].position - sign * reach * Vec3::UnitZ()).norm();
+    const int end = line.from_free ? 0 : line.nodes - 1;
+    const Vec3 r = node(0, end, 0);
+    const double off = (r - model_.points[line.from_free ? line.to : line.from].position - sign * reach * Vec3::UnitZ()).norm();
     if (off <= 1e-6 * L) return std::nullopt;
     return fmt::format("free end {:.2e} m off", off);
   }
@@ -181,7 +224,6 @@ class TrialCheck {
   const Trial& trial_;
   const Model& model_;
   const State& state_;
-  const Line& line_;
   std::vector<double> residual_;
   double reference_ = 0.0;
   mutable double drag_ = 0.0;  // N, along the last integral

@@ -20,8 +20,10 @@ namespace hawser::bench {
 /// What is known of the answer beside its equations.
 enum class Known {
   nothing,
-  catenary,  // one uniform line without EI in still water between held ends: the elastic catenary
-  hanging    // a free end in still water: straight down (or up), tension = what hangs below
+  catenary,    // one uniform line without EI in still water between held ends: the elastic catenary
+  hanging,     // a free end in still water: straight down (or up), tension = what hangs below
+  catenaries,  // uniform lines without EI in still water that meet at free points: each the elastic catenary between its ends
+  equal_legs   // the same, equal and evenly around the axis z, on which the free point lies
 };
 
 struct Trial {
@@ -153,8 +155,8 @@ class TrialDraw {
     }
   }
 
-  /// A current that is sheared and may turn with depth; its drag across the line is up to ten times the weight.
-  void flow(double top, double bottom, bool turns) {
+  /// A current that is sheared and may turn with depth; its drag across the line is up to ten times the weight, the ratio that it returns.
+  double flow(double top, double bottom, bool turns) {
     LineType& t = type();
     for (LineType& other : trial_.scene.line_types) {
       other.drag_normal = uniform(0.8, 1.6);
@@ -170,6 +172,7 @@ class TrialDraw {
       if (turns) heading += uniform(-1.5, 1.5);
     }
     stretches(weight_ * length_ * (1.0 + ratio));
+    return ratio;
   }
 
   /// A level bed, or a slope, or bumps; returns its height at the origin. Sinks by 1 mm to 0.1 m under the line.

@@ -69,13 +69,18 @@ class TrialScenes : private TrialDraw {
     span(direction(1.4), chance(0.7) ? slack_chord() : length_ * uniform(1.0, 1.2));
   }
 
-  void loaded_span() {
-    begin("sections, clumps and floats");
+  /// Slack four times in five.
+  void any_span() { span(direction(1.4), chance(0.8) ? slack_chord() : length_ * uniform(1.0, 1.2)); }
+
+  void loaded(const char* kind, int most) {
+    begin(kind);
     if (chance(0.7)) sections(-1.0);
-    loads(5);
+    loads(most);
     may_bend();
-    span(direction(1.4), chance(0.8) ? slack_chord() : length_ * uniform(1.0, 1.2));
+    any_span();
   }
+
+  void loaded_span() { loaded("sections, clumps and floats", 5); }
 
   void pipe() {
     begin("clamped pipe");
@@ -91,16 +96,12 @@ class TrialScenes : private TrialDraw {
   void current() {
     begin("span in a current");
     may_bend();
-    span(direction(1.4), chance(0.8) ? slack_chord() : length_ * uniform(1.0, 1.2));
+    any_span();
     flow(0.0, -3000.0, true);
   }
 
   void loaded_current() {
-    begin("loaded span in a current");
-    if (chance(0.7)) sections(-1.0);
-    loads(4);
-    may_bend();
-    span(direction(1.4), chance(0.8) ? slack_chord() : length_ * uniform(1.0, 1.2));
+    loaded("loaded span in a current", 4);
     flow(0.0, -3000.0, true);
   }
 

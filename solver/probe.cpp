@@ -51,6 +51,7 @@ class Starts {
                                                             : known_;
     const double amplitude = amplitudes[static_cast<std::size_t>(turn / kinds) % amplitudes.size()];
     const bool in_plane = turn % 2 == 0;
+    move_hubs(kind == mirrored, amplitude, state);
     for (int line = 0; line < static_cast<int>(model_.lines.size()); ++line) {
       const Frame frame = frame_of(line, state);
       if (kind == mirrored) mirror(line, frame, state);
@@ -66,11 +67,38 @@ class Starts {
   }
 
  private:
+  /// Moves every hub, mirrored: to the other side of the points that its lines lead to; its lines follow, linearly in s.
+  void move_hubs(bool mirrored, double amplitude, State& state) {
+    if (model_.hubs.empty()) return;
+    std::vector<Vec3> moved(model_.points.size(), Vec3::Zero());
+    for (const Hub& hub : model_.hubs) {
+      Vec3 others = Vec3::Zero();
+      double length = 0.0;
+      for (const Support& end : hub.ends) {
+        const Line& line = model_.lines[end.line];
+        others += node(state, end.line, line.nodes - 1 - end.node);
+        length = std::max(length, line.length);
+      }
+      const Vec3 here = node(state, hub.ends[0].line, hub.ends[0].node);
+      moved[hub.point] = amplitude * length * random_.vector();
+      if (mirrored) moved[hub.point] += 2.0 * (others / static_cast<double>(hub.ends.size()) - here);
+    }
+    for (int line = 0; line < static_cast<int>(model_.lines.size()); ++line) {
+      const Line& l = model_.lines[line];
+      const Vec3 from = moved[l.from], along = (moved[l.to] - from) / l.length;
+      for_each_node(line, state, [&](double s, Vec3& r, Vec3& slope) {
+        r += from + s * along;
+        slope += along;
+      });
+    }
+  }
+
+  Vec3 node(const State& state, int line, int i) const { return Eigen::Map<const Vec3>(&state.q[model_.dof(line, i)]); }
+
   Frame frame_of(int line, const State& state) const {
-    const auto r = [&](int node) { return Vec3(Eigen::Map<const Vec3>(&state.q[model_.dof(line, node)])); };
     Frame frame;
-    frame.origin = r(0);
-    frame.along = r(model_.lines[line].nodes - 1) - frame.origin;
+    frame.origin = node(state, line, 0);
+    frame.along = node(state, line, model_.lines[line].nodes - 1) - frame.origin;
     frame.chord = frame.along.norm();
     frame.along = frame.chord > 0.0 ? Vec3(frame.along / frame.chord) : Vec3::UnitX();
     frame.sideways = frame.along.cross(Vec3::UnitZ());
@@ -153,7 +181,7 @@ double distance(const Model& model, const State& a, const State& b) {
 
 double potential_energy(const Model& model, const State& state) {
   const Energies energies = observe_energies(model, state);
-  double energy = energies.axial + energies.bending + energies.potential;
+  double energy = energies.axial + energies.bending + energies.potential + energies.bed;
   for (const Body& body : model.bodies) energy -= body.force(0.0).dot(Eigen::Map<const Vec3>(&state.q[model.dof(body.line, body.node)]));
   for (const SpreadLoad& spread : model.spread_loads) {
     const Line& line = model.lines[spread.line];

@@ -6,7 +6,8 @@
 //   u(s) = A sum_{k=1}^{3} c_k sin(k pi s/L)      (a free end: sin((k - 1/2) pi s/L) from the held one),
 //
 // A = 1, 3, 10 or 30 % of the length L and c_k random vectors of mean size 1/k, in the vertical plane of the line in every other turn and in space in
-// the rest. The random numbers depend on the seed alone. Two states are the same where no node of one lies further than
+// the rest. Points where lines meet move by A L c, mirrored ones also to the other side of the points that their lines lead to, and take their lines
+// with them, linearly in s. The random numbers depend on the seed alone. Two states are the same where no node of one lies further than
 // `same` times the longest line from where it lies in the other.
 // A probe can show that there is another equilibrium; it cannot show that there is none.
 #pragma once
@@ -41,8 +42,8 @@ struct ProbeReport {
 ProbeReport probe_equilibria(const Assembler& assembler, const StaticOptions& options, const State& known, const StaticReport& report,
                              const ProbeOptions& probe);
 
-/// Strain energy and the potential of wet weights and forces at t = 0 [J]: what a stable state of a line without bed and drag has least of. The
-/// energy of a bed (half the force times the penetration) is not in it.
+/// Strain energy, that of the normal force of the bed, and the potential of wet weights and forces at t = 0 [J]: what a stable state has least of
+/// where there is no drag, no friction and no uneven bed (seabed_law.hpp). Friction and drag have no potential and no part in it.
 double potential_energy(const Model& model, const State& state);
 
 }  // namespace hawser

@@ -94,7 +94,8 @@ State open_start(const Model& model) {
     const double open = std::max(0.0, 0.1 * line.length - chord.norm());
     Vec3 n = chord;
     n.z() = 0.0;
-    n = n.norm() > 0.0 ? n.normalized() : Vec3::UnitX();
+    const Vec3 flow = model.current.at(r(0).z()) - model.tow;
+    n = n.norm() > 0.0 ? n.normalized() : flow.norm() > 0.0 ? Vec3(flow.normalized()) : Vec3::UnitX();
     const double turn = 2.0 * std::numbers::pi / line.length;
     for (int i = 0; i < line.nodes; ++i) {
       r(i) -= open * std::sin(turn * line.s[i]) * n;

@@ -28,8 +28,9 @@ LineLoads dry_loads(const Model& model, int line_index, double z) {
   loads.density.resize(line.elements);
   loads.point.assign(line.nodes, Vec3::Zero());
   for (int i = 0; i < line.elements; ++i) loads.density[i] = Vec3(0.0, 0.0, -model.element.weight[line.first_element + i]);
+  const auto where_lines_meet = [&](int node) { return (node == 0 && line.from_hub >= 0) || (node == line.nodes - 1 && line.to_hub >= 0); };
   for (const Body& body : model.bodies)
-    if (body.line == line_index) loads.point[body.node] += body_force(model, body, z);
+    if (body.line == line_index && !where_lines_meet(body.node)) loads.point[body.node] += body_force(model, body, z);
   for (const SpreadLoad& spread : model.spread_loads)
     if (spread.line == line_index)
       loads.density[spread.element - line.first_element] += spread.share / model.element.length[spread.element] * spread.force(0.0);

@@ -22,7 +22,7 @@ struct LineLoads {
   Vec3 total(const Model& model, const Line& line) const;
 };
 
-/// Weight, spread loads and bodies; the bodies' drag at height z.
+/// Weight, spread loads and bodies, but those of points where lines meet; the bodies' drag at height z.
 LineLoads dry_loads(const Model& model, int line, double z);
 
 /// Upper estimate of the whole load on a line [N]: |weight| + |drag across the line| + |bodies|, in the fastest flow.

@@ -11,6 +11,7 @@
 #include "solver/relaxation.hpp"
 #include "solver/static_continuation.hpp"
 #include "solver/static_failure.hpp"
+#include "solver/static_parts.hpp"
 #include "solver/static_perturbation.hpp"
 #include "solver/static_start_loads.hpp"
 #include "solver/static_system.hpp"
@@ -32,6 +33,7 @@ constexpr double way_tolerance = 1e-7;     // of the models on the way of a cont
 constexpr double way_increment = 1e-5;     // of the length
 constexpr double relaxation_floor = 1e-2;  // of T_f
 constexpr int relaxation_steps = 1000;
+constexpr int rounds_apart = 2;  // of lines solved one by one
 
 double longest_line(const Model& model) {
   double longest = 0.0;
@@ -92,6 +94,7 @@ class StaticSolver {
     const bool hangs = has_free_end() && !model_.seabed;  // what is hard there is the end itself, which no stiffness helps
     if (hangs && accepted("tension-floored Newton from the catenary", start, floored())) return true;
     if (by_continuation(start)) return true;
+    if (!model_.hubs.empty() && by_parts(start)) return true;
     if (!hangs && accepted("tension-floored Newton from the catenary", start, floored())) return true;
     if (by_relaxation(start)) return true;
     if (options_.tolerance > 0.0) return false;
@@ -119,6 +122,25 @@ class StaticSolver {
     return converges(assembler_, name + ", bowed sideways because the result was compressed or knotted",
                      {first_floor(), false, false, bowed_iterations}) &&
            report_.stable;
+  }
+
+  /// Every line on its own, then all together, the points where they meet moved by Newton's first increment (static_parts.hpp).
+  bool by_parts(const State& start) {
+    State state = start;
+    for (int round = 0; round < rounds_apart && !exhausted(); ++round) {
+      const LinesApart apart = solve_lines_apart(model_, options_, round > 0, state);
+      report_.iterations += static_cast<int>(std::ceil(apart.factorizations));
+      report(fmt::format("lines one by one: {} of {} not solved, {:.0f} factorizations", apart.unsolved, model_.lines.size(), apart.factorizations));
+      if (accepted("Newton from these lines", state, unfloored())) return true;
+      if (apart.unsolved > 0) return false;
+      state_ = state;
+      StaticSystem system(assembler_, *linear_, tolerance_, HUGE_VAL, state_);
+      system.residual();
+      if (!system.solve(0.0)) return false;
+      system.advance(capped_step(system.increment(), longest_line(model_)));
+      state = state_;
+    }
+    return false;
   }
 
   /// From an easier model to the real one (static_continuation.hpp).

@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
-#include "tests/support/scene_builder.hpp"
+#include "tests/support/network_scenes.hpp"
 #include "tests/support/static_solution.hpp"
 
 namespace hawser::test {
@@ -75,6 +76,41 @@ TEST(Probe, ALoopIsFoundBesideTheLineWithoutOne) {
   EXPECT_GE(report.equilibria.size(), 3u);
 }
 
+TEST(Probe, AHubIsFoundOnBothSidesOfItsCorners) {
+  // Pressed by half of what makes it snap, the pyramid stands above its corners or hangs below them.
+  const double hf = Pyramid::fold_height(), F = 0.5 * Pyramid::force(hf);
+  const double above = Pyramid::height(F, hf, 6.0), below = Pyramid::height(F, -6.0, -hf);
+  for (const double EI : {0.0, 2.0e5}) {
+    const ProbeReport report = probed(Pyramid::scene(F, EI, above), 10, 1, StaticStart::straight);
+    ASSERT_EQ(report.equilibria.size(), 2u) << EI;
+    for (const ProbedEquilibrium& e : report.equilibria) {
+      const double h = e.state.q[EI == 0.0 ? 5 : 20];  // the end of the first line, of one element or of three
+      EXPECT_NEAR(h, h > 0.0 ? above : below, 1e-8);
+      EXPECT_NEAR(e.energy, h > 0.0 ? Pyramid::energy(above) + (Pyramid::force(above) - F) * above : Pyramid::energy(below), 1e-6);
+      EXPECT_EQ(e.report.negative_pivots, 0);
+      EXPECT_TRUE(e.report.stable);
+    }
+    EXPECT_NEAR(report.equilibria[1].distance, (above - below) / Pyramid::l, 1e-8);
+    EXPECT_LT(Pyramid::energy(below), Pyramid::energy(above));
+  }
+}
+
+TEST(Probe, AMooredBuoyHasOneEquilibrium) {
+  // Lines without bending stiffness over a level frictionless bed: the energy is convex in every direction but those of compression.
+  SceneBuilder b;
+  b.type(line_type("chain", 5.0e8, 1000.0)).free("buoy", {20, -10, -5}, weight(-3.0e5));
+  b.scene.environment.depth = 100.0;
+  b.scene.environment.seabed.stiffness = 1.0e5;
+  for (int k = 0; k < 3; ++k) {
+    const double heading = 2.0 * std::numbers::pi / 3.0 * k;
+    b.fixed("a" + std::to_string(k), {400.0 * std::cos(heading), 400.0 * std::sin(heading), -100.0});
+    b.line("a" + std::to_string(k), "buoy").section("chain", 420.0, 30);
+  }
+  const ProbeReport report = probed(b.scene, 10);
+  ASSERT_EQ(report.equilibria.size(), 1u);
+  EXPECT_GE(report.equilibria[0].found, 6);
+}
+
 TEST(Probe, TheSameSeedGivesTheSameBits) {
   const ProbeReport a = probed(pushed_pipe(8.0), 6, 7), b = probed(pushed_pipe(8.0), 6, 7);
   ASSERT_EQ(a.equilibria.size(), b.equilibria.size());
@@ -82,6 +118,18 @@ TEST(Probe, TheSameSeedGivesTheSameBits) {
     EXPECT_EQ(a.equilibria[i].state.q, b.equilibria[i].state.q);
     EXPECT_EQ(a.equilibria[i].found, b.equilibria[i].found);
   }
+}
+
+TEST(Probe, EnergyOfALineThatLiesOnTheBedHoldsThatOfTheBed) {
+  // A thread as long as its way, laid between two points at the depth to which it sinks: w/k of a metre, w^2/2k for every metre.
+  const double w = 12.0, k = 2.0e3, L = 50.0, z = -20.0 - w / k;
+  SceneBuilder b;
+  b.dry().type(line_type("thread", 1.0e6, w)).fixed("a", {0, 0, z}).fixed("b", {L, 0, z}).line("a", "b").section("thread", L, 10);
+  b.scene.environment.depth = 20.0;
+  b.scene.environment.seabed.stiffness = k;
+  const StaticSolution s(b.scene);
+  EXPECT_NEAR(observe_energies(*s.model, s.state).bed, w * w / (2.0 * k) * L, 1e-9 * w * L);
+  EXPECT_NEAR(potential_energy(*s.model, s.state), w * w / (2.0 * k) * L + w * L * z, 1e-9 * w * L * 20.0);
 }
 
 TEST(Probe, PotentialEnergyGrowsByTheWorkAgainstConstantForces) {
