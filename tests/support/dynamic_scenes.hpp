@@ -1,6 +1,8 @@
 // Scenes of the dynamic reference cases, and a run of one with its samples.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <vector>
 
 #include "assembly/assembler.hpp"
@@ -87,6 +89,20 @@ inline std::vector<Sample> run_and_sample(const Assembler& assembler, const Simu
     samples.push_back({s.t, s});
     return true;
   });
+  return samples;
+}
+
+/// The states of a motion without numerical damping, solved to 1e-11: what is lost is the scheme's error.
+inline std::vector<Sample> undamped_motion(const Model& model, State state, double duration, double interval, double step) {
+  SimulateOptions options;
+  options.duration = duration;
+  options.output_interval = interval;
+  options.step = step;
+  options.spectral_radius = 1.0;
+  options.tolerance = 1e-11;
+  SimulateReport report;
+  auto samples = run_and_sample(Assembler(model), options, state, report);
+  EXPECT_TRUE(report.finished) << report.failure.what;
   return samples;
 }
 

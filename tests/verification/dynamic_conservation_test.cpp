@@ -81,16 +81,7 @@ Flight free_flight(int elements, double step) {
     Eigen::Map<Vec3>(&state.v[d + 3]) =
         Vec3(2 * pi / 100 * std::cos(pi * S / 100), 0.2 + 9 * pi / 100 * std::cos(3 * pi * S / 100), -4 * pi / 100 * std::sin(pi * S / 100));
   }
-  const Assembler assembler(model);
-  SimulateOptions options;
-  options.duration = 0.5;
-  options.output_interval = 0.02;
-  options.step = step;
-  options.spectral_radius = 1.0;
-  options.tolerance = 1e-11;
-  SimulateReport report;
-  const auto samples = run_and_sample(assembler, options, state, report);
-  EXPECT_TRUE(report.finished) << report.failure.what;
+  const auto samples = undamped_motion(model, state, 0.5, 0.02, step);
   Flight flight{observe_energies(model, samples.front().state), 0.0, 0.0, 0.0};
   for (const Sample& sample : samples) {
     const Energies now = observe_energies(model, sample.state);
