@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "assembly/mesh.hpp"
+#include "assembly/numbering.hpp"
 #include "assembly/seabed_build.hpp"
 
 namespace hawser {
@@ -82,7 +83,7 @@ class ModelBuilder {
     for (const LineSpec& line : scene_.lines)
       for (const std::string* end : {&line.from, &line.to}) ++ends_at_[point_index(*end)];
     for (const LineSpec& line : scene_.lines) add_line(line);
-    number_unknowns();
+    number_unknowns(model_);
     model_.seabed = make_seabed(scene_, model_);
     return std::move(model_);
   }
@@ -201,17 +202,6 @@ class ModelBuilder {
       } else {
         add_body(load.body, load.moment, line, nearest_node(mesh.s, load.at));
       }
-    }
-  }
-
-  void number_unknowns() {
-    BlockTridiagonal layout(model_.chains);
-    model_.chains.assign(layout.chains().begin(), layout.chains().end());
-    model_.dofs = layout.dofs();
-    model_.unknowns = model_.dofs;
-    for (Joint& joint : model_.joints) {
-      joint.inner = model_.unknowns;
-      model_.unknowns += joint.inner_count();
     }
   }
 

@@ -282,11 +282,17 @@ void add_force(const Chain& chain, int node, const Vector12& f, std::span<double
     for (int i = 0; i < chain.block; ++i) r[chain.dof(node + end) + i] += f[6 * end + i];
 }
 
+/// The integral over a piece of what the law says of the penetration there.
+double integral(const ContactElement& e, const Piece& piece, double (*of)(const SeabedLaw& law, double gap)) {
+  const double width = piece.b - piece.a;
+  double sum = 0.0;
+  for (int q = 0; q < points; ++q) sum += four_gauss_weight[q] * width * e.length() * of(e.seabed().law, e.gap(piece.a + width * four_gauss_xi[q]));
+  return sum;
+}
+
 /// Force on the bed and the deepest place of a piece.
 void add_depth(const ContactElement& e, const Piece& piece, double s0, SeabedContact& out) {
-  const double width = piece.b - piece.a;
-  for (int q = 0; q < points; ++q)
-    out.force += four_gauss_weight[q] * width * e.length() * contact_pressure(e.seabed().law, e.gap(piece.a + width * four_gauss_xi[q]));
+  out.force += integral(e, piece, [](const SeabedLaw& law, double gap) { return contact_pressure(law, gap); });
   Cuts turn;
   const int count = e.monotone_cuts(turn);
   for (int i = 0; i < count; ++i) {
@@ -357,11 +363,7 @@ double seabed_energy(const Model& model, const State& state, int line, int eleme
   const ContactElement e(model, line, element, columns(element_state(model, state, line, element).q));
   if (!e.near()) return 0.0;
   double energy = 0.0;
-  for (const Piece& piece : e.wet(true)) {
-    const double width = piece.b - piece.a;
-    for (int q = 0; q < points; ++q)
-      energy += four_gauss_weight[q] * width * e.length() * contact_energy(e.seabed().law, e.gap(piece.a + width * four_gauss_xi[q]));
-  }
+  for (const Piece& piece : e.wet(true)) energy += integral(e, piece, contact_energy);
   return energy;
 }
 

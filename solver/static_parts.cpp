@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assembly/numbering.hpp"
 #include "solver/static_start_loads.hpp"
 
 namespace hawser {
@@ -40,16 +41,6 @@ std::vector<T> those_of(const std::vector<T>& all, int line) {
 }
 
 Vec3 end_position(const Model& model, int line, int node, const State& state) { return Eigen::Map<const Vec3>(&state.q[model.dof(line, node)]); }
-
-void number_unknowns(const Chain& chain, Model& model) {
-  const BlockTridiagonal layout({chain});
-  model.chains.assign(layout.chains().begin(), layout.chains().end());
-  model.dofs = model.unknowns = layout.dofs();
-  for (Joint& joint : model.joints) {
-    joint.inner = model.unknowns;
-    model.unknowns += static_cast<std::size_t>(joint.inner_count());
-  }
-}
 
 /// Unknowns of a line in the vectors of all lines and, in the same order, in its own.
 std::vector<std::size_t> unknowns_of(const Model& model, int line) {
@@ -98,7 +89,8 @@ Model line_apart(const Model& model, int index, const State& state) {
         bed.surface,         bed.law, part(bed.lay, line.first_node, line.nodes), part(bed.lay_slope, line.first_node, line.nodes), {bed.laid[index]},
         bed.friction_tangent};
   }
-  number_unknowns(model.chain(index), alone);
+  alone.chains = {model.chain(index)};
+  number_unknowns(alone);
   return alone;
 }
 

@@ -160,7 +160,8 @@ class StaticSolver {
 
   bool first_on_the_way(const StaticContinuation& way, const State& start) {
     const Attempt attempts[] = {{first_floor(), false, true, 40}, {first_floor(), true, true, 150}};
-    const auto found = [&](const State& from) { return reached(way, from, attempts); };
+    const Assembler first(way.model(), std::max(1, options_.threads));
+    const auto found = [&](const State& from) { return reached(first, !way.at_end(), from, attempts); };
     if (!found(start)) return false;
     if (report_.stable) return true;
     bow_sideways(model_, state_);
@@ -173,10 +174,10 @@ class StaticSolver {
     while (!way.at_end()) {
       const State before = state_;
       way.advance();
-      if (reached(way, before, attempts)) continue;
+      const Assembler next(way.model(), std::max(1, options_.threads));
+      if (reached(next, !way.at_end(), before, attempts)) continue;
       if (restless < most_restless) {  // a branch of equilibria may have ended: the line jumps
         state_ = before;
-        const Assembler next(way.model(), std::max(1, options_.threads));
         if (comes_to_rest(next, way_steps, !way.at_end())) continue;
         ++restless;
       }
@@ -187,12 +188,11 @@ class StaticSolver {
   }
 
   /// The equilibrium of the model on the way, by the plain Newton where that is stable, or else by the guarded one.
-  bool reached(const StaticContinuation& way, const State& from, const Attempt (&attempts)[2]) {
-    const Assembler relaxed(way.model(), std::max(1, options_.threads));
+  bool reached(const Assembler& next, bool on_the_way, const State& from, const Attempt (&attempts)[2]) {
     for (Attempt attempt : attempts) {
-      attempt.on_the_way = !way.at_end();
+      attempt.on_the_way = on_the_way;
       state_ = from;
-      if (converges(relaxed, "at the end of the continuation", attempt) && (attempt.guarded || report_.stable)) return true;
+      if (converges(next, "at the end of the continuation", attempt) && (attempt.guarded || report_.stable)) return true;
     }
     return false;
   }

@@ -154,11 +154,12 @@ StepStatus GeneralizedAlpha::iterate(const State& state, const TangentWeights& w
     move(taken, weights);
     evaluate(report);
     const Measure now = measure(report);
-    const double force = now.force, wanted_force = this->wanted_force(now, rounding);
+    const double force = now.force;
     if (!std::isfinite(force) && !old) {
       return StepStatus::not_finite;
     }
-    if (whole && settled(force, previous, wanted_force, increment, rounding)) {
+    const double wanted = wanted_force(now, rounding);
+    if (whole && settled(force, previous, wanted, increment, rounding)) {
       if (old) {
         factors_.failures = 0;
       }
@@ -168,7 +169,7 @@ StepStatus GeneralizedAlpha::iterate(const State& state, const TangentWeights& w
       return StepStatus::ok;
     }
     const int more = old ? worth - report.iterations : 1;
-    keep = whole && force < previous && more > 0 && force * std::pow(force / previous, more) <= wanted_force;
+    keep = whole && force < previous && more > 0 && force * std::pow(force / previous, more) <= wanted;
     if (old && !keep) {
       give_up_old_factors();
       if (!(force < previous)) {
