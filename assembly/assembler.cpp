@@ -227,7 +227,7 @@ TangentPanels Assembler::tangent_panels(const State& state, const TangentWeights
 
 void Assembler::reduce(Tangent& tangent, std::span<const double> r, std::span<double> rhs) const {
   assert(rhs.size() == model_.dofs);
-  for (std::size_t i = 0; i < model_.dofs; ++i) rhs[i] = -r[i];
+  impl_->sweep.copy_negated(r.data(), rhs.data(), model_.dofs);
   for (std::size_t k = 0; k < model_.joints.size(); ++k) condense_inner(model_, model_.joints[k], r, tangent.eliminations[k], rhs);
   project(rhs);
 }
@@ -272,7 +272,7 @@ void TangentPanels::make(int chain_index, int panel, double* values) {
   const bool beside = impl.has_beside();
   if (beside) add_beside(chain, panel, values);
   const std::size_t first = chain.dof(first_node_of_panel(panel)), end = first + chain.block * nodes_of_panel(panel, chain.nodes);
-  for (std::size_t i = first; i < end; ++i) rhs_[i] = -r_[i];
+  impl.sweep.copy_negated(&r_[first], &rhs_[first], end - first);
   if (beside && !model.joints.empty())
     for (std::size_t i = first; i < end; ++i) rhs_[i] += impl.condensation[i];
   for (const Support& support : model.supports) {

@@ -65,27 +65,17 @@ HAWSER_INLINE void form_dyads(const Transverse<S>& x, const Point<S>& p, Respons
   out.Jra = Jra;
 }
 
-/// What the terms answer at a Gauss point.
+/// What the terms answer at a Gauss point whose kinematics are set.
 template <class Family, Want want, class S>
-HAWSER_INLINE void respond(const ModeState<typename Family::Shape, S>& y, const GaussPoint<typename Family::Shape, S>& at, const Properties<S>& e,
-                           const Weights& w, const CurrentTable& current, Response<S>& out) {
-  Point<S> p;
-  if constexpr (Family::bends || Family::wet) {
-    p.a = at.a(y.q);
-    set_tangent(p);
-  }
-  if constexpr (Family::bends) {
-    p.b = at.b(y.q);
-    Family::template add_elastic<want>(p, e, w, out);
-  }
+HAWSER_INLINE void respond(Point<S> p, const Properties<S>& e, const Weights& w, const CurrentTable& current, Response<S>& out) {
+  if constexpr (Family::bends || Family::wet) set_tangent(p);
+  if constexpr (Family::bends) Family::template add_elastic<want>(p, e, w, out);
   Transverse<S> x;
   x.n = x.rr_z = zero_vector<S>();
   x.F_q = x.F_t = x.F_n = x.F_z = x.rr = x.rr_tt = x.rr_nn = x.ra = x.ra_q = x.ra_t = x.ra_n = x.ra_nn = S(0.0);
-  p.acceleration = at.r(y.a);
   if constexpr (Family::wet) {
-    current_at(current, at.r(y.q, 2), p.current, p.current_gradient);
+    current_at(current, p.z, p.current, p.current_gradient);
     p.sheared = current.rows > 1;
-    p.velocity = at.r(y.v);
   }
   Family::template add_loads<want>(p, e, w, x);
   V3<S> F = x.F_q * p.acceleration;
@@ -107,27 +97,23 @@ HAWSER_INLINE void integrate(const ElementState<S>& x, const Properties<S>& e, c
   using Shape = typename Family::Shape;
   in.length = e.length;
   in.inverse_length = S(1.0) / e.length;
-  ModeState<Shape, S> y;
-  to_modes<Shape>(x.q, in.inverse_length, y.q);
-  to_modes<Shape>(x.v, in.inverse_length, y.v);
-  to_modes<Shape>(x.a, in.inverse_length, y.a);
+  const PointKinematics<Family, S> kinematics(x, in.length, in.inverse_length);
   const Weights w{0.5 * weights.k, 0.5 * weights.c, 0.5 * weights.m, weights.gauss_newton};  // the half of the columns
   // A loop, not three copies: the terms are most of the code, and it must stay in the instruction cache.
 #pragma GCC unroll 1
   for (int k = 0; k < gauss_points; ++k)
-    respond<Family, want>(y, GaussPoint<Shape, S>(k, e.length), weighted(e, in.inverse_length, gauss_weight[k]), w, current, in.at[k]);
+    respond<Family, want>(kinematics.at[k], weighted(e, in.inverse_length, gauss_weight[k]), w, current, in.at[k]);
 
   const S share = S(0.5 * Shape::middle_weight) * e.length;
-  const GaussPoint<Shape, S> middle(1, e.length);
   V3<S> axial;
   M3<S> J;
-  Axial::evaluate<want>(middle.a(y.q), middle.a(y.v), e, w, axial, J);
+  Axial::evaluate<want>(kinematics.at[1].a, kinematics.middle_slope_dot, e, w, axial, J);
   in.axial = share * axial;
   if constexpr (want == Want::tangent)
     for (int c = 0; c < 9; ++c) in.axial_tangent.m[c] = share * J.m[c];
   if constexpr (Shape::node_vectors == 2) {
     const S missed = S(0.5 * Shape::missed_mass) * e.mass * e.length * e.length * e.length;
-    in.missed = missed * y.a[2];
+    in.missed = missed * kinematics.skew_acceleration;
     in.missed_tangent = S(w.m) * missed;
   }
 }
@@ -320,6 +306,18 @@ HAWSER_INLINE void add_transverse_component(const Integrand<Family, S>& in, cons
   });
 }
 
+/// The elastic part of one component, from mode 1 on.
+template <int n, class S>
+HAWSER_INLINE void copy_modes(const S (&from)[n][n], S (&to)[n][n]) {
+  for (int i = 1; i < n; ++i)
+    for (int j = 1; j < n; ++j) to[i][j] = from[i][j];
+}
+template <int n, class S>
+HAWSER_INLINE void copy_modes_transposed(const S (&from)[n][n], S (&to)[n][n]) {
+  for (int i = 1; i < n; ++i)
+    for (int j = 1; j < n; ++j) to[i][j] = from[j][i];
+}
+
 /// The tangent between node vectors, handed on component by component: sink(c, K) gets component c of all blocks, K[i][j] between node
 /// vectors in the order r0, s0, r1, s1 (bar: r0, r1). One loop over the components: everything in between stays in registers.
 template <class Family, class S, class Sink>
@@ -327,11 +325,17 @@ HAWSER_INLINE void nodal_tangent(const Integrand<Family, S>& in, Sink&& sink) {
   using Shape = typename Family::Shape;
   constexpr int n = Shape::modes;
   const PairCoefficients<Shape, S> of(in.length, in.inverse_length);
+  S mirrored[3][n][n];  // the elastic part is symmetric: its component (j, i) is (i, j) transposed, which comes first
 #pragma GCC unroll 1
   for (int c = 0; c < 9; ++c) {
     S G[n][n], half[n][n], K[n][n];
     for (int i = 0; i < n; ++i) G[0][i] = G[i][0] = S(0.0);
-    elastic_component<Family>(in, c, G);
+    const int row = c % 3, column = c / 3, pair = row + column - 1;
+    if (row < column)
+      copy_modes_transposed<n>(mirrored[pair], G);
+    else
+      elastic_component<Family>(in, c, G);
+    if (row > column) copy_modes<n>(G, mirrored[pair]);
     add_transverse_component<Family>(in, of, c, G);
     for (int i = 0; i < n; ++i) to_nodes<Shape>(G[i], half[i]);
     for (int j = 0; j < n; ++j) {

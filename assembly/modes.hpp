@@ -58,61 +58,99 @@ HAWSER_INLINE void static_for(F&& f) {
   (std::make_integer_sequence<int, n>{});
 }
 
-/// The modes of a nodal quantity.
+/// Component i of the modes of a nodal quantity.
+template <class Shape, class S>
+HAWSER_INLINE void to_modes(const Nodal<S>& n, const S& inverse_l, int i, S (&y)[Shape::modes]) {
+  y[0] = S(0.5) * (n.r0[i] + n.r1[i]);
+  y[1] = inverse_l * (n.r1[i] - n.r0[i]);
+  if constexpr (Shape::node_vectors == 2) {
+    y[2] = S(0.5) * (n.s0[i] + n.s1[i]) - y[1];
+    y[3] = S(0.5) * (n.s1[i] - n.s0[i]);
+  }
+}
 template <class Shape, class S>
 HAWSER_INLINE void to_modes(const Nodal<S>& n, const S& inverse_l, V3<S>* y) {
-  y[0] = S(0.5) * (n.r0 + n.r1);
-  y[1] = inverse_l * (n.r1 - n.r0);
-  if constexpr (Shape::node_vectors == 2) {
-    y[2] = S(0.5) * (n.s0 + n.s1) - y[1];
-    y[3] = S(0.5) * (n.s1 - n.s0);
+  for (int i = 0; i < 3; ++i) {
+    S component[Shape::modes];
+    to_modes<Shape>(n, inverse_l, i, component);
+    for (int j = 0; j < Shape::modes; ++j) y[j][i] = component[j];
   }
 }
 
-/// Kinematics of an element in its modes.
+/// The Gauss points of an element: a component of r, r' or l r'' at all three, from that component of the modes. The outer pair takes the even part
+/// with and without the odd one.
 template <class Shape, class S>
-struct ModeState {
-  V3<S> q[Shape::modes], v[Shape::modes], a[Shape::modes];
+class GaussPoints {
+ public:
+  HAWSER_INLINE explicit GaussPoints(const S& l) {
+    static_for<Shape::modes - 1>([&](auto i) __attribute__((always_inline)) { r_[i + 1] = S(outer<Channel::r, i + 1>) * l; });
+    if constexpr (Shape::modes == 4) r_middle_ = S(Shape::coefficient(Channel::r, 3, 0.0)) * l;
+  }
+  HAWSER_INLINE void r(const S (&y)[Shape::modes], S (&x)[gauss_points]) const {
+    S even = y[0], odd = r_[1] * y[1];
+    x[1] = even;
+    if constexpr (Shape::modes == 4) {
+      x[1] = even + r_middle_ * y[3];
+      even = even + r_[3] * y[3];
+      odd = odd + r_[2] * y[2];
+    }
+    set_pair(even, odd, x);
+  }
+  HAWSER_INLINE static void a(const S (&y)[Shape::modes], S (&x)[gauss_points]) {
+    x[0] = x[1] = x[2] = y[1];
+    if constexpr (Shape::modes == 4) {
+      x[1] = y[1] + S(Shape::coefficient(Channel::a, 2, 0.0)) * y[2];
+      set_pair(y[1] + S(outer<Channel::a, 2>) * y[2], S(outer<Channel::a, 3>) * y[3], x);
+    }
+  }
+  HAWSER_INLINE static void b(const S (&y)[Shape::modes], S (&x)[gauss_points]) {
+    x[1] = S(outer<Channel::b, 3>) * y[3];
+    set_pair(x[1], S(outer<Channel::b, 2>) * y[2], x);
+  }
+
+ private:
+  template <Channel channel, int j>
+  static constexpr double outer = Shape::coefficient(channel, j, gauss_eta[2]);
+
+  HAWSER_INLINE static void set_pair(const S& even, const S& odd, S (&x)[gauss_points]) {
+    x[0] = even - odd;
+    x[2] = even + odd;
+  }
+
+  S r_[Shape::modes], r_middle_;  // coefficients of r times l
 };
 
-/// The coefficients at the Gauss points, to be read in a loop over them.
-template <class Shape>
-struct GaussTable {
-  double at[gauss_points][3][Shape::modes];
+/// What an element's state is at its Gauss points, as far as the family reads it.
+template <class Family, class S>
+struct PointKinematics {
+  Point<S> at[gauss_points];
+  V3<S> middle_slope_dot;   // r'_dot in the middle
+  V3<S> skew_acceleration;  // mode e of r_ddot
 
-  constexpr GaussTable() : at{} {
-    for (int k = 0; k < gauss_points; ++k)
-      for (int channel = 0; channel < 3; ++channel)
-        for (int j = 0; j < Shape::modes; ++j) at[k][channel][j] = Shape::coefficient(static_cast<Channel>(channel), j, gauss_eta[k]);
+  /// Component by component: few numbers are on their way at a time.
+  HAWSER_INLINE PointKinematics(const ElementState<S>& x, const S& l, const S& inverse_l) {
+    using Shape = typename Family::Shape;
+    const GaussPoints<Shape, S> points(l);
+    S y[Shape::modes], value[gauss_points];
+    for (int i = 0; i < 3; ++i) {
+      const auto set = [&](V3<S> Point<S>::*member) __attribute__((always_inline)) {
+        for (int k = 0; k < gauss_points; ++k) (at[k].*member)[i] = value[k];
+      };
+      to_modes<Shape>(x.q, inverse_l, i, y);
+      points.a(y, value), set(&Point<S>::a);
+      if constexpr (Family::bends) points.b(y, value), set(&Point<S>::b);
+      if (Family::wet && i == 2) {
+        points.r(y, value);
+        for (int k = 0; k < gauss_points; ++k) at[k].z = value[k];
+      }
+      to_modes<Shape>(x.v, inverse_l, i, y);
+      if constexpr (Family::wet) points.r(y, value), set(&Point<S>::velocity);
+      points.a(y, value), middle_slope_dot[i] = value[1];
+      to_modes<Shape>(x.a, inverse_l, i, y);
+      points.r(y, value), set(&Point<S>::acceleration);
+      if constexpr (Shape::modes == 4) skew_acceleration[i] = y[2];
+    }
   }
-};
-template <class Shape>
-inline constexpr GaussTable<Shape> gauss_table{};
-
-/// Values at Gauss point k. Products with R_0 = 1, A_0 = 0, A_1 = 1, B_0 = B_1 = 0 are left out.
-template <class Shape, class S>
-struct GaussPoint {
-  const double (&c)[3][Shape::modes];
-  S position[Shape::modes];  // R_j l
-
-  HAWSER_INLINE GaussPoint(int k, const S& l) : c(gauss_table<Shape>.at[k]) {
-    static_for<Shape::modes - 1>([&](auto i) __attribute__((always_inline)) { position[i + 1] = S(c[0][i + 1]) * l; });
-  }
-  HAWSER_INLINE S r(const V3<S>* y, int i) const {
-    S x = y[0][i] + position[1] * y[1][i];
-    if constexpr (Shape::modes == 4) x = x + position[2] * y[2][i] + position[3] * y[3][i];
-    return x;
-  }
-  HAWSER_INLINE S a(const V3<S>* y, int i) const {
-    S x = y[1][i];
-    if constexpr (Shape::modes == 4) x = x + S(c[1][2]) * y[2][i] + S(c[1][3]) * y[3][i];
-    return x;
-  }
-  HAWSER_INLINE S b(const V3<S>* y, int i) const { return S(c[2][2]) * y[2][i] + S(c[2][3]) * y[3][i]; }
-
-  HAWSER_INLINE V3<S> r(const V3<S>* y) const { return {{r(y, 0), r(y, 1), r(y, 2)}}; }
-  HAWSER_INLINE V3<S> a(const V3<S>* y) const { return {{a(y, 0), a(y, 1), a(y, 2)}}; }
-  HAWSER_INLINE V3<S> b(const V3<S>* y) const { return {{b(y, 0), b(y, 1), b(y, 2)}}; }
 };
 
 }  // namespace hawser

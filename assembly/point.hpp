@@ -19,6 +19,7 @@ template <class S>
 struct Point {
   V3<S> a, b;                       // r', l r''
   V3<S> velocity, acceleration;     // r_dot, r_ddot
+  S z;                              // of r
   V3<S> current, current_gradient;  // u(z), du/dz
   bool sheared;                     // the gradient is not zero everywhere
   S inverse_length;                 // 1/|a|

@@ -6,6 +6,8 @@
 // Compiled once per instruction set (sweep_*.cpp); this interface holds no inline code and no library types.
 #pragma once
 
+#include <cstddef>
+
 #include "assembly/kernel.hpp"
 #include "assembly/observed.hpp"
 #include "assembly/panel.hpp"
@@ -45,6 +47,7 @@ struct SweepTable {
   SweepFunction force[sweep_families];
   SweepFunction tangent[sweep_families];
   ObserveFunction observe[sweep_families];
+  void (*copy_negated)(const double* from, double* to, std::size_t count);
 };
 
 /// The widest instruction set of this processor; HAWSER_SIMD=base|avx2 forces a narrower one.

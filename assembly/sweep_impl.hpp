@@ -269,6 +269,13 @@ void observe_panel(const SweepLine& line, double* rows) {
 }
 
 template <int W>
+void copy_negated(const double* from, double* to, std::size_t count) {
+  std::size_t i = 0;
+  for (; i + W <= count; i += W) (-Pack<W>::load(from + i)).store(to + i);
+  for (; i < count; ++i) to[i] = -from[i];
+}
+
+template <int W>
 constexpr SweepTable make_sweep_table(const char* name) {
   return {name,
           W,
@@ -277,7 +284,8 @@ constexpr SweepTable make_sweep_table(const char* name) {
           {sweep_panel<BarDry, Want::tangent, W>, sweep_panel<BarWet, Want::tangent, W>, sweep_panel<CableDry, Want::tangent, W>,
            sweep_panel<CableWet, Want::tangent, W>, sweep_panel<BeamDry, Want::tangent, W>, sweep_panel<BeamWet, Want::tangent, W>},
           {observe_panel<BarDry, W>, observe_panel<BarWet, W>, observe_panel<CableDry, W>, observe_panel<CableWet, W>, observe_panel<BeamDry, W>,
-           observe_panel<BeamWet, W>}};
+           observe_panel<BeamWet, W>},
+          copy_negated<W>};
 }
 
 }  // namespace hawser
