@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/linear/chain_kernel.hpp"
-#include "solver/linear/chain_kernel_packs.hpp"
+#include "solver/linear/chain_kernel_columns.hpp"
 
 namespace hawser {
 
