@@ -31,7 +31,7 @@ namespace hawser {
 struct PivotWatch {
   double smallest = std::numeric_limits<double>::infinity();  // pivots, absolute
   double largest = 0.0;
-  double growth_squared = 0.0;  // largest over the nodes: (Frobenius norm of the worked [L_k U_k, Y_k] over that of [D_k, U(k, k+1)])^2
+  double growth_squared = 0.0;  // largest over the nodes: (Frobenius norm of the worked [L_k U_k, Y_k] over that of [D_k, U(k, k+1)])^2, as read
   double not_finite = 0.0;      // NaN as soon as a pivot is not finite, else zero
   int negative = 0;             // pivots
 
@@ -54,6 +54,7 @@ struct FrontRun {
   double given = 0.0;              // the kernel's, from run to run
 };
 
+/// block: 3, 6 or 7 unknowns a node.
 struct ChainKernel {
   /// The front or fronts up to the middle node, which `factorize_middle` completes. Not for spent_lu.
   void (*factorize)(int block, int nodes, Factors form, const double* values, double* factors, Front front, PivotWatch& watch);
