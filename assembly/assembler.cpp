@@ -213,6 +213,7 @@ void Assembler::residual(const State& state, std::span<double> r) const {
 void Assembler::tangent(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r, Tangent& tangent) const {
   assert(r.size() == model_.unknowns);
   impl_->set_floor(floor);
+  tangent.chain.declare(Symmetry::unknown);
   impl_->run(state, weights, r.data(), tangent.chain.values().data());
   impl_->add_beside(state, weights, floor, r, AddedBlocks(tangent.chain), tangent.eliminations);
   for (const Support& support : model_.supports) constrain(model_, support, tangent.chain);
@@ -306,6 +307,7 @@ void TangentPanels::add_carry(int chain_index, int panel, double* next_D) {
 
 const BlockTridiagonal& TangentPanels::whole() {
   assembler_.tangent(state_, weights_, floor_, r_, tangent_);
+  tangent_.chain.declare(symmetry_);
   assembler_.reduce(tangent_, r_, rhs_);
   return tangent_.chain;
 }

@@ -94,6 +94,10 @@ class TangentPanels final : public MatrixPanels {
   void add_carry(int chain, int panel, double* next_D) override;
   const BlockTridiagonal& whole() override;
 
+  /// Known to the caller (symmetry.hpp).
+  Symmetry symmetry() const override { return symmetry_; }
+  void declare(Symmetry symmetry) { symmetry_ = symmetry; }
+
  private:
   friend class Assembler;
   TangentPanels(const Assembler& assembler, const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r,
@@ -106,6 +110,7 @@ class TangentPanels final : public MatrixPanels {
   TangentFloor floor_;
   std::span<double> r_, rhs_;
   Tangent& tangent_;  // its blocks: only what is beside the sweep, until whole() is asked for
+  Symmetry symmetry_ = Symmetry::unknown;
 };
 
 }  // namespace hawser

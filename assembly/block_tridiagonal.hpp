@@ -16,7 +16,7 @@
 namespace hawser {
 
 struct Chain {
-  int block = 6;  // unknowns a node: 3 (bar) or 6 (cable, beam)
+  int block = 6;  // unknowns a node: 3 (bar), 6 (cable, beam) or 7 (with a twist)
   int nodes = 0;
   std::size_t first_dof = 0;    // of node 0 in a vector of unknowns
   std::size_t first_value = 0;  // of D[0] in values()
@@ -24,6 +24,9 @@ struct Chain {
   std::size_t dof(int node) const { return first_dof + static_cast<std::size_t>(block) * node; }
   std::size_t dofs() const { return static_cast<std::size_t>(block) * nodes; }
 };
+
+/// What is known of a matrix beforehand. A solver may read one triangle only of a symmetric one.
+enum class Symmetry { unknown, symmetric };
 
 class BlockTridiagonal {
  public:
@@ -44,6 +47,10 @@ class BlockTridiagonal {
 
   std::span<double> values() { return values_; }
   std::span<const double> values() const { return values_; }
+
+  /// As whoever made the values says; whoever makes them anew says it anew.
+  Symmetry symmetry() const { return symmetry_; }
+  void declare(Symmetry symmetry) { symmetry_ = symmetry; }
 
   void set_zero();
 
@@ -67,6 +74,7 @@ class BlockTridiagonal {
   std::vector<Chain> chains_;
   AlignedVector<double> values_;
   std::size_t dofs_ = 0;
+  Symmetry symmetry_ = Symmetry::unknown;
 };
 
 }  // namespace hawser

@@ -12,6 +12,8 @@ class MatrixPanels {
  public:
   virtual ~MatrixPanels() = default;
 
+  virtual Symmetry symmetry() const { return Symmetry::unknown; }
+
   /// Writes D, U, L of a panel's nodes, one behind the other, and their entries of b. Each panel once, in any order, by any thread. At the
   /// first node the share of the panel before is missing.
   virtual void make(int chain, int panel, double* values) = 0;

@@ -49,6 +49,7 @@ class Pencil {
     std::vector<double> r(model.unknowns);
     assembler_.tangent(state, TangentWeights{}, TangentFloor{}, r, tangent_);
     tangent_.symmetrize();
+    tangent_.chain.declare(Symmetry::symmetric);
     shifted_ = tangent_;
     chain_mass_ = mass_;
     for (const BorderEnd& end : tangent_.border.ends) std::fill_n(&chain_mass_[end.r], 3, 0.0);

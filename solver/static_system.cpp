@@ -1,11 +1,13 @@
 #include "solver/static_system.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "assembly/observables.hpp"
+#include "assembly/symmetry.hpp"
 
 namespace hawser {
 namespace {
@@ -53,6 +55,7 @@ StaticSystem::StaticSystem(const Assembler& assembler, LinearSolver& linear, dou
       relative_tolerance_(tolerance > 0.0 ? tolerance : automatic_tolerance),
       exact_below_(exact_below),
       tangent_(assembler.make_tangent()),
+      symmetry_(static_symmetry(model_, state)),
       r_(model_.unknowns),
       rhs_(model_.dofs),
       d_(model_.unknowns) {
@@ -77,6 +80,8 @@ bool StaticSystem::solve(double floor) {
   const bool definite = !exact || !keep_definite_ || negative_pivots_here() == 0;
   exact = exact && definite;
   TangentPanels panels = assembler_.tangent_panels(state_, static_weights, {floor, !exact, floor > 0.0 || !definite}, r_, tangent_, rhs_);
+  assert(symmetry_ == static_symmetry(model_, state_));  // only positions change
+  panels.declare(symmetry_);
   factor_report_ = solve_with(panels);
   assembler_.project(r_);
   if (factor_report_.status != FactorStatus::ok) return false;

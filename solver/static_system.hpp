@@ -48,6 +48,7 @@ class StaticSystem : public NewtonSystem {
   double relative_tolerance_;
   double exact_below_;
   Tangent tangent_;
+  Symmetry symmetry_;
   std::vector<double> r_, rhs_, d_, carried_;
   double residual_ = 0.0, reference_force_ = 0.0, roundoff_ = 0.0;  // N
   double least_kept_ = 0.0;                                         // N, largest Model::minimum_tension

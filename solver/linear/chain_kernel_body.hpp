@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/linear/chain_kernel.hpp"
-#include "solver/linear/chain_kernel_packs.hpp"
+#include "solver/linear/chain_kernel_columns.hpp"
 #include "solver/linear/chain_kernel_solve.hpp"
 
 namespace hawser {
@@ -19,6 +19,7 @@ template <int B, class Function>
 HAWSER_INLINE void for_each_pair(Function f) {
   f(Index<0>{}), f(Index<1>{});
   if constexpr (B > 4) f(Index<2>{});
+  if constexpr (B > 6) f(Index<3>{});
 }
 #define HAWSER_PAIR (auto pair) __attribute__((always_inline))
 
@@ -72,24 +73,34 @@ struct Watch {
 };
 
 // The node a front is at.
-template <int B>
+//
+// With L Delta L^T rows of Delta_k L_k^T and of Y_k are read as columns of L_k Delta_k and X_k Delta_k, and of D only packs that hold entries on or
+// below the diagonal are formed.
+template <int B, Factors F>
 struct Node {
+  static constexpr bool symmetric = F == Factors::ldlt;
   typename Panel<B, 2>::Multiplier lower[B], x[B];  // columns of L_k, zero down to the diagonal, and of X_k
+  alignas(32) double worked_lower[symmetric ? B * B : 1], worked_x[symmetric ? B * B : 1];
   Watch<B> watch;
+
+  /// The first row of D that is needed in columns 2P and 2P + 1.
+  template <int P>
+  static constexpr int from = symmetric ? 2 * P : 0;
 
   // Columns 2P and 2P + 1 of L_k\U_k from those of D_k, and of X_k, which is written where a place is given. The middle node has no X_k.
   //
   // The reciprocal of the second pivot q - l u / p is p / (p q - l u): both divisions go on at once.
   template <int P, bool HasNext>
   HAWSER_INLINE void reduce(const double* diagonal, const double* given_column, double* worked, double* column) {
-    constexpr int first = 2 * P, second = first + 1;
+    constexpr int first = 2 * P, second = first + 1, rows = from<P>;
     using Pair = PairOf<B, P>;
     Pair d, c;
-    d.load(diagonal + B * first);
+    d.template load<rows>(diagonal + B * first);
     if constexpr (HasNext) c.load_values(given_column + B * first);
+    if constexpr (HasNext && symmetric) c.add_squares_to(watch.given);
     HAWSER_UNROLL for (int i = 0; i < first; ++i) {
-      const auto u = d.row(i);
-      d.subtract(lower[i], u);
+      const auto u = symmetric ? Pair::transposed(worked_lower, first, i) : d.row(i);
+      d.template subtract<rows>(lower[i], u);
       if constexpr (HasNext) c.subtract(x[i], u);
     }
     const double p = d.at(first, 0), reciprocal = 1.0 / p;
@@ -98,16 +109,18 @@ struct Node {
     const auto with_reciprocal = Pair::template with_entry<first>(a, reciprocal);
     if constexpr (HasNext) x[first] = c.scaled_column(0, reciprocal);
     if constexpr (second == B) {
-      watch.note_pivot(p), d.add_squares_to(watch.worked);
-      Pair::store_columns(worked + B * first, with_reciprocal, with_reciprocal);
+      watch.note_pivot(p), d.template add_squares_to<rows>(watch.worked);
+      Pair::template store_columns<rows>(worked + B * first, with_reciprocal, with_reciprocal);
       if (HasNext && column) Pair::store_columns(column + B * first, x[first], x[first]);
     } else {
-      const double u = d.at(first, 1), determinant = p * d.at(second, 1) - d.at(second, 0) * u, second_reciprocal = p / determinant;
-      d.subtract_from_second(lower[first], u);
-      d.add_squares_to(watch.worked);
+      const double l = d.at(second, 0), u = symmetric ? l : d.at(first, 1);
+      const double determinant = p * d.at(second, 1) - l * u, second_reciprocal = p / determinant;
+      d.template subtract_from_second<rows>(lower[first], u);
+      d.template add_squares_to<rows>(watch.worked);
+      if constexpr (symmetric && second + 1 < B) d.template store<rows>(worked_lower + B * first);
       const auto b = d.scaled_column(1, second_reciprocal);
       lower[second] = Pair::template zero_above<second + 1>(b);
-      Pair::store_columns(worked + B * first, with_reciprocal, Pair::template with_entry<second>(b, second_reciprocal));
+      Pair::template store_columns<rows>(worked + B * first, with_reciprocal, Pair::template with_entry<second>(b, second_reciprocal));
       watch.note_pivots(p, determinant * reciprocal);
       if constexpr (HasNext) {
         c.subtract_from_second(x[first], u);
@@ -115,38 +128,39 @@ struct Node {
         if (column) Pair::store_columns(column + B * first, x[first], x[second]);
       }
     }
+    if constexpr (HasNext && symmetric) c.add_squares_to(watch.worked), c.store(worked_x + B * first);
   }
 };
 
-// A front that goes from node to node. Where not all is kept, D_k waits beside the factors, so that these are written once.
-template <int B, Front Side, Keep K>
+// A front that goes from node to node. What is left of D_k waits beside the factors where these are not in its place, so that they are written once.
+template <int B, Front Side, Factors F>
 struct Elimination {
-  using At = Layout<B, K>;
+  using At = Layout<B, F>;
   static constexpr int block = B * B, towards_middle = Side == Front::left ? 1 : -1;
   const double *values, *next_values;  // of the front's node and of the next one
   double *factors, *column;            // column: where X_k goes, if it is kept
   double *b, *next_b;                  // nullptr: none
   double *diagonal, *next_diagonal;    // D_k and D_{k+1}
   double* first_factors;               // of the chain
-  alignas(32) double waiting[B * B];
+  alignas(32) double waiting[B * B] = {};
   double aside[B] = {};  // a share of the middle node's b, which is taken anew from X
-  Node<B> node;
+  Node<B, F> node;
 
   HAWSER_INLINE void begin(int nodes, FrontRun& run, double* chain_factors, double* chain_b) {
     const int k = node_of<Side>(nodes, run.first);
     first_factors = chain_factors, factors = chain_factors + At::at(k);
     values = run.values, next_values = inwards<Side>(values, 3 * block);
     b = chain_b ? chain_b + static_cast<long>(B) * k : nullptr, next_b = chain_b ? b + towards_middle * B : nullptr;
-    diagonal = At::all ? factors : waiting, next_diagonal = At::all ? inwards<Side>(factors, At::node) : waiting;
-    column = At::all ? factors + At::template column<Side> : nullptr;
+    diagonal = At::in_place ? factors : waiting, next_diagonal = At::in_place ? inwards<Side>(factors, At::node) : waiting;
+    column = At::column_kept ? factors + At::template column<Side> : nullptr;
     if (run.first == 0) run.given = take_over(values, diagonal);
-    if (run.first > 0 && !At::all) copy(factors, waiting);
+    if (run.first > 0 && !At::in_place) copy(factors, waiting);
     node.watch.go_on(run.given);
   }
   HAWSER_INLINE void end(FrontRun& run, int count, PivotWatch& watch) {
     run.first += count, run.count -= count, run.given = node.watch.given.sum();
     run.values = values;
-    if (!At::all && next_diagonal == waiting) copy(waiting, factors);
+    if (!At::in_place && next_diagonal == waiting) copy(waiting, factors);
     node.watch.add_to(watch);
   }
   /// Before the last node. The right front leaves its share of the middle node aside, so that the left one need not wait; b of the middle takes
@@ -154,8 +168,8 @@ struct Elimination {
   HAWSER_INLINE void meet(int nodes) {
     static constexpr double nothing[B * B] = {};
     if constexpr (Side == Front::right) next_values = nothing, next_diagonal = first_factors + At::left_at_middle(nodes);
-    if constexpr (Side == Front::left && !At::all) next_diagonal = first_factors + At::at(nodes / 2);
-    if constexpr (!At::all) column = first_factors + (Side == Front::left ? At::left_column(nodes) : At::right_column(nodes));
+    if constexpr (Side == Front::left && !At::in_place) next_diagonal = first_factors + At::at(nodes / 2);
+    if constexpr (!At::column_kept) column = first_factors + (Side == Front::left ? At::left_column(nodes) : At::right_column(nodes));
     next_b = aside;
   }
 
@@ -163,20 +177,25 @@ struct Elimination {
   HAWSER_INLINE void reduce() {
     node.template reduce<P, true>(diagonal, inwards<Side>(values, 2 * block), factors, column);
   }
-  // Columns 2P and 2P + 1 of Y_k and of what is left of the next node's D.
+  // Columns 2P and 2P + 1 of Y_k, where it is not Delta_k X_k^T, and of what is left of the next node's D.
   template <int P>
   HAWSER_INLINE void update() {
-    constexpr int first = 2 * B * P;
+    constexpr int first = 2 * B * P, rows = Node<B, F>::template from<P>;
     PairOf<B, P> y, d;
-    y.load_values(inwards<Side>(values, block) + first), d.load_values(next_values + first);
-    y.add_squares_to(node.watch.given), d.add_squares_to(node.watch.given_next);
-    HAWSER_UNROLL for (int i = 0; i < B; ++i) {
-      const auto u = y.row(i);
-      if (i + 1 < B) y.subtract(node.lower[i], u);
-      d.subtract(node.x[i], u);
+    d.template load_values<rows>(next_values + first), d.template add_squares_to<rows>(node.watch.given_next);
+    if constexpr (At::symmetric) {
+      HAWSER_UNROLL for (int i = 0; i < B; ++i) d.template subtract<rows>(node.x[i], PairOf<B, P>::transposed(node.worked_x, 2 * P, i));
+    } else {
+      y.load_values(inwards<Side>(values, block) + first), y.add_squares_to(node.watch.given);
+      HAWSER_UNROLL for (int i = 0; i < B; ++i) {
+        const auto u = y.row(i);
+        if (i + 1 < B) y.subtract(node.lower[i], u);
+        d.subtract(node.x[i], u);
+      }
+      y.add_squares_to(node.watch.worked);
+      y.store(factors + At::template row<Side> + first);
     }
-    y.add_squares_to(node.watch.worked);
-    y.store(factors + At::template row<Side> + first), d.store(next_diagonal + first);
+    d.template store<rows>(next_diagonal + first);
   }
   HAWSER_INLINE void reduce_right_hand_side() {
     if (!b) return;
@@ -199,7 +218,8 @@ struct Elimination {
     }
     values = inwards<Side>(values, 3 * block), next_values = inwards<Side>(next_values, 3 * block);
     factors = inwards<Side>(factors, At::node);
-    if (At::all) diagonal = factors, next_diagonal = inwards<Side>(factors, At::node), column = factors + At::template column<Side>;
+    if (At::in_place) diagonal = factors, next_diagonal = inwards<Side>(factors, At::node);
+    if (At::column_kept) column = factors + At::template column<Side>;
   }
   HAWSER_INLINE void eliminate_node() {
     for_each_pair<B>([&] HAWSER_PAIR { reduce<pair.value>(); });
@@ -214,10 +234,10 @@ struct Elimination {
     typename Panel<B, 2>::Squares sum;
     sum.set_all(0.0);
     for_each_pair<B>([&] HAWSER_PAIR {
-      constexpr int from = 2 * B * pair.value;
+      constexpr int first = 2 * B * pair.value, rows = Node<B, F>::template from<pair.value>;
       PairOf<B, pair.value> d;
-      d.load_values(given + from), d.store(to + from);
-      d.add_squares_to(sum);
+      d.template load_values<rows>(given + first), d.template store<rows>(to + first);
+      d.template add_squares_to<rows>(sum);
     });
     return sum.sum();
   }
@@ -226,11 +246,11 @@ struct Elimination {
   }
 };
 
-template <int B, Front Side, Keep K>
+template <int B, Front Side, Factors F>
 void factorize_front(int nodes, FrontRun& run, double* factors, double* b, PivotWatch& watch) {
   const int count = run.count, met = nodes_of<Side>(nodes) - run.first;
   if (count == 0) return;
-  Elimination<B, Side, K> front;
+  Elimination<B, Side, F> front;
   front.begin(nodes, run, factors, b);
   for (int k = 1; k <= count; ++k) {
     if (k == met) front.meet(nodes);
@@ -240,11 +260,11 @@ void factorize_front(int nodes, FrontRun& run, double* factors, double* b, Pivot
 }
 
 /// The next `count` nodes of both fronts, in turn.
-template <int B, Keep K>
+template <int B, Factors F>
 void factorize_in_turn(int nodes, int count, FrontRun& left_run, FrontRun& right_run, double* factors, double* b, PivotWatch& watch) {
   const int left_met = nodes_of<Front::left>(nodes) - left_run.first, right_met = nodes_of<Front::right>(nodes) - right_run.first;
-  Elimination<B, Front::left, K> left;
-  Elimination<B, Front::right, K> right;
+  Elimination<B, Front::left, F> left;
+  Elimination<B, Front::right, F> right;
   left.begin(nodes, left_run, factors, b), right.begin(nodes, right_run, factors, b);
   for (int k = 1; k <= count; ++k) {
     if (k == left_met) left.meet(nodes);
@@ -257,30 +277,30 @@ void factorize_in_turn(int nodes, int count, FrontRun& left_run, FrontRun& right
   left.end(left_run, count, watch), right.end(right_run, count, watch);
 }
 
-// With 6 unknowns a node one front already fills the processor's window of instructions: in turn is no faster.
-template <int B, Keep K>
+// LU with 6 unknowns a node and more already fills the processor's window of instructions with one front: in turn is no faster.
+template <int B, Factors F>
 void eliminate_runs_of(int nodes, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch) {
   const int shared = left.count < right.count ? left.count : right.count;
-  if constexpr (B == 3) {
-    if (shared > 0) factorize_in_turn<B, K>(nodes, shared, left, right, factors, b, watch);
+  if constexpr (B == 3 || (B == 6 && F == Factors::ldlt)) {
+    if (shared > 0) factorize_in_turn<B, F>(nodes, shared, left, right, factors, b, watch);
   }
-  factorize_front<B, Front::left, K>(nodes, left, factors, b, watch);
-  factorize_front<B, Front::right, K>(nodes, right, factors, b, watch);
+  factorize_front<B, Front::left, F>(nodes, left, factors, b, watch);
+  factorize_front<B, Front::right, F>(nodes, right, factors, b, watch);
 }
 
-template <int B, Keep K>
+template <int B, Factors F>
 void factorize_middle_node(int nodes, const double* values, double* factors, PivotWatch& watch) {
-  double* middle = factors + Layout<B, K>::at(nodes / 2);
-  const double* from_right = factors + Layout<B, K>::left_at_middle(nodes);
-  Node<B> node;
+  double* middle = factors + Layout<B, F>::at(nodes / 2);
+  const double* from_right = factors + Layout<B, F>::left_at_middle(nodes);
+  Node<B, F> node;
   node.watch.start();
   for_each_pair<B>([&] HAWSER_PAIR {
-    constexpr int first = 2 * B * pair.value;
+    constexpr int first = 2 * B * pair.value, rows = Node<B, F>::template from<pair.value>;
     PairOf<B, pair.value> d, r;
-    d.load_values(values + first), d.add_squares_to(node.watch.given);
-    if (nodes > 1) d.load(middle + first);
-    if (nodes > 2) r.load(from_right + first), d.add(r);
-    d.store(middle + first);
+    d.template load_values<rows>(values + first), d.template add_squares_to<rows>(node.watch.given);
+    if (nodes > 1) d.template load<rows>(middle + first);
+    if (nodes > 2) r.template load<rows>(from_right + first), d.add(r);
+    d.template store<rows>(middle + first);
     node.template reduce<pair.value, false>(middle, nullptr, middle, nullptr);
   });
   node.watch.end_node();
@@ -288,59 +308,66 @@ void factorize_middle_node(int nodes, const double* values, double* factors, Piv
   for (int i = 0; i < B; ++i) watch.not_finite += 0.0 * middle[Panel<B, 2>::place(i, i)];  // a NaN anywhere before has come to here
 }
 
-template <int B>
+template <int B, Factors F>
 void factorize_any(int nodes, const double* values, double* factors, Front front, PivotWatch& watch) {
   FrontRun left{0, front == Front::right ? 0 : nodes_of<Front::left>(nodes), values};
   FrontRun right{0, front == Front::left ? 0 : nodes_of<Front::right>(nodes), values + 3L * B * B * (nodes - 1)};
-  eliminate_runs_of<B, Keep::all>(nodes, left, right, factors, nullptr, watch);
+  eliminate_runs_of<B, F>(nodes, left, right, factors, nullptr, watch);
 }
 
-template <int B>
+template <int B, Factors F>
 void forward_any(int nodes, const double* factors, double* b, Front front) {
   const FrontRun left{0, front == Front::right ? 0 : nodes_of<Front::left>(nodes), nullptr};
   const FrontRun right{0, front == Front::left ? 0 : nodes_of<Front::right>(nodes), nullptr};
-  forward_runs<B>(nodes, left, right, factors, b);
+  forward_runs<B, F>(nodes, left, right, factors, b);
 }
 
-template <int B, Keep K>
+template <int B, Factors F>
 void backward_any(int nodes, const double* factors, double* b, Front front) {
-  if (front == Front::both) backward_both<B, K>(nodes, factors, b);
-  if (front == Front::left) backward_front<B, Front::left, K>(nodes, factors, b);
-  if (front == Front::right) backward_front<B, Front::right, K>(nodes, factors, b);
+  if (front == Front::both) backward_both<B, F>(nodes, factors, b);
+  if (front == Front::left) backward_front<B, Front::left, F>(nodes, factors, b);
+  if (front == Front::right) backward_front<B, Front::right, F>(nodes, factors, b);
 }
 
-template <Keep K>
-struct Kept {
-  static constexpr Keep value = K;
+template <Factors F>
+struct Form {
+  static constexpr Factors value = F;
 };
+/// f(Index<block>, Form<form>).
 template <class Function>
-void with_layout(int block, Keep keep, Function f) {
-  if (block == 3) return keep == Keep::all ? f(Index<3>{}, Kept<Keep::all>{}) : f(Index<3>{}, Kept<Keep::solution>{});
-  keep == Keep::all ? f(Index<6>{}, Kept<Keep::all>{}) : f(Index<6>{}, Kept<Keep::solution>{});
+void with_kept(int block, Factors form, Function f) {
+  const auto with_block = [&](auto known) { block == 3 ? f(Index<3>{}, known) : block == 6 ? f(Index<6>{}, known) : f(Index<7>{}, known); };
+  form == Factors::ldlt ? with_block(Form<Factors::ldlt>{}) : with_block(Form<Factors::lu>{});
+}
+template <class Function>
+void with_any(int block, Factors form, Function f) {
+  if (form != Factors::spent_lu) return with_kept(block, form, f);
+  constexpr Form<Factors::spent_lu> spent;
+  block == 3 ? f(Index<3>{}, spent) : block == 6 ? f(Index<6>{}, spent) : f(Index<7>{}, spent);
 }
 
-void factorize(int block, int nodes, const double* values, double* factors, Front front, PivotWatch& watch) {
-  block == 3 ? factorize_any<3>(nodes, values, factors, front, watch) : factorize_any<6>(nodes, values, factors, front, watch);
+void factorize(int block, int nodes, Factors form, const double* values, double* factors, Front front, PivotWatch& watch) {
+  with_kept(block, form, [&](auto size, auto known) { factorize_any<size.value, known.value>(nodes, values, factors, front, watch); });
 }
 
-void eliminate_runs(int block, int nodes, Keep keep, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch) {
-  with_layout(block, keep, [&](auto size, auto kept) { eliminate_runs_of<size.value, kept.value>(nodes, left, right, factors, b, watch); });
+void eliminate_runs(int block, int nodes, Factors form, FrontRun& left, FrontRun& right, double* factors, double* b, PivotWatch& watch) {
+  with_any(block, form, [&](auto size, auto known) { eliminate_runs_of<size.value, known.value>(nodes, left, right, factors, b, watch); });
 }
 
-void factorize_middle(int block, int nodes, Keep keep, const double* values, double* factors, PivotWatch& watch) {
-  with_layout(block, keep, [&](auto size, auto kept) { factorize_middle_node<size.value, kept.value>(nodes, values, factors, watch); });
+void factorize_middle(int block, int nodes, Factors form, const double* values, double* factors, PivotWatch& watch) {
+  with_any(block, form, [&](auto size, auto known) { factorize_middle_node<size.value, known.value>(nodes, values, factors, watch); });
 }
 
-void forward(int block, int nodes, const double* factors, double* b, Front front) {
-  block == 3 ? forward_any<3>(nodes, factors, b, front) : forward_any<6>(nodes, factors, b, front);
+void forward(int block, int nodes, Factors form, const double* factors, double* b, Front front) {
+  with_kept(block, form, [&](auto size, auto known) { forward_any<size.value, known.value>(nodes, factors, b, front); });
 }
 
-void solve_middle(int block, int nodes, Keep keep, const double* factors, double* b) {
-  with_layout(block, keep, [&](auto size, auto kept) { solve_middle_node<size.value, kept.value>(nodes, factors, b); });
+void solve_middle(int block, int nodes, Factors form, const double* factors, double* b) {
+  with_any(block, form, [&](auto size, auto known) { solve_middle_node<size.value, known.value>(nodes, factors, b); });
 }
 
-void backward(int block, int nodes, Keep keep, const double* factors, double* b, Front front) {
-  with_layout(block, keep, [&](auto size, auto kept) { backward_any<size.value, kept.value>(nodes, factors, b, front); });
+void backward(int block, int nodes, Factors form, const double* factors, double* b, Front front) {
+  with_any(block, form, [&](auto size, auto known) { backward_any<size.value, known.value>(nodes, factors, b, front); });
 }
 
 }  // namespace

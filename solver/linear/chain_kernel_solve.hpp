@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/linear/chain_kernel.hpp"
-#include "solver/linear/chain_kernel_packs.hpp"
+#include "solver/linear/chain_kernel_columns.hpp"
 
 namespace hawser {
 
@@ -26,20 +26,24 @@ HAWSER_INLINE T* inwards(T* p, long n) {
 }
 
 // Where factors lie (chain_kernel.hpp): places in the chain, and from a node's D.
-template <int B, Keep K>
+template <int B, Factors F>
 struct Layout {
-  static constexpr bool all = K == Keep::all;
-  static constexpr int block = B * B, node = all ? 3 * block : 2 * block;
+  static constexpr bool symmetric = F == Factors::ldlt;
+  static constexpr bool column_kept = F != Factors::spent_lu;  // X
+  static constexpr bool in_place = F == Factors::lu;           // what is left of D_k waits where L_k\U_k will be
+  static constexpr int block = B * B, node = in_place ? 3 * block : 2 * block;
   static constexpr long at(int k) { return static_cast<long>(node) * k; }
-  static constexpr long left_at_middle(int nodes) { return all ? at(nodes - 1) + block : at(nodes); }
+  static constexpr long left_at_middle(int nodes) { return in_place ? at(nodes - 1) + block : symmetric ? at(nodes / 2) + block : at(nodes); }
   // X of the nodes beside the middle one.
-  static constexpr long left_column(int nodes) { return all ? at(nodes / 2) - block : at(nodes) + block; }
-  static constexpr long right_column(int nodes) { return at(nodes / 2) + block; }
+  static constexpr long left_column(int nodes) { return column_kept ? at(nodes / 2) - block : at(nodes) + block; }
+  static constexpr long right_column(int nodes) { return symmetric ? at(nodes / 2 + 1) + block : at(nodes / 2) + block; }
 
   template <Front Side>
-  static constexpr int row = all&& Side == Front::right ? -block : block;  // Y
+  static constexpr int row = in_place&& Side == Front::right ? -block : block;  // Y
   template <Front Side>
-  static constexpr int column = Side == Front::right ? -2 * block : 2 * block;  // X, where all is kept
+  static constexpr int column = symmetric              ? block
+                                : Side == Front::right ? -2 * block
+                                                       : 2 * block;  // X, where it is kept
 };
 
 // Processors fetch ahead by themselves of loads that go up, hardly of those that go down. Measured: nodes ahead.
@@ -65,10 +69,20 @@ HAWSER_INLINE void solve_upper(const double* diagonal, double* z) {
   HAWSER_UNROLL for (int j = 0; j < B; ++j) z[j] *= diagonal[Panel<B, 2>::place(j, j)];
 }
 
+// The two factors of Delta L^T: rows divided by pivots, then the columns of L again.
+template <int B>
+HAWSER_INLINE void divide_by_pivots(const double* diagonal, double* z) {
+  HAWSER_UNROLL for (int j = 0; j < B; ++j) z[j] *= diagonal[Panel<B, 2>::place(j, j)];
+}
+template <int B>
+HAWSER_INLINE void solve_lower_transposed(const double* diagonal, double* z) {
+  HAWSER_UNROLL for (int j = B - 1; j > 0; --j) { HAWSER_UNROLL for (int i = 0; i < j; ++i) z[i] -= diagonal[Panel<B, 2>::place(j, i)] * z[j]; }
+}
+
 // One front of a solve. The products with X_k and Y_k go in packs; the triangles, bound by the latency from unknown to unknown, in scalars.
-template <int B, Front Side, Keep K>
+template <int B, Front Side, Factors F>
 struct Substitution {
-  using At = Layout<B, K>;
+  using At = Layout<B, F>;
   static constexpr int towards_middle = Side == Front::left ? 1 : -1;
   const double* diagonal = nullptr;
   double* b = nullptr;
@@ -97,10 +111,18 @@ struct Substitution {
   }
   HAWSER_INLINE void backward() {
     Column<B> c;
-    c.load(b);
-    subtract_product<B>(c, diagonal + At::template row<Side>, z);
-    HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = c.at(i);
-    solve_upper<B>(diagonal, z);
+    if constexpr (At::symmetric) {
+      c.gather(z);
+      HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = b[i];
+      divide_by_pivots<B>(diagonal, z);
+      Panel<B, 2>::subtract_transposed(z, diagonal + At::template column<Side>, c);
+      solve_lower_transposed<B>(diagonal, z);
+    } else {
+      c.load(b);
+      subtract_product<B>(c, diagonal + At::template row<Side>, z);
+      HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = c.at(i);
+      solve_upper<B>(diagonal, z);
+    }
     HAWSER_UNROLL for (int i = 0; i < B; ++i) b[i] = z[i];
     fetch_ahead(-towards_middle);
     move(-towards_middle);
@@ -126,19 +148,19 @@ struct Substitution {
 };
 
 /// Both fronts in turn as far as both go.
-template <int B>
+template <int B, Factors F>
 void forward_runs(int nodes, FrontRun left_run, FrontRun right_run, const double* factors, double* b) {
-  Substitution<B, Front::left, Keep::all> left;
-  Substitution<B, Front::right, Keep::all> right;
+  Substitution<B, Front::left, F> left;
+  Substitution<B, Front::right, F> right;
   left.begin_forward(nodes, left_run, factors, b), right.begin_forward(nodes, right_run, factors, b);
   for (; left_run.count > 0 && right_run.count > 0; --left_run.count, --right_run.count) left.forward(), right.forward();
   for (; left_run.count > 0; --left_run.count) left.forward();
   for (; right_run.count > 0; --right_run.count) right.forward();
 }
 
-template <int B, Keep K>
+template <int B, Factors F>
 void solve_middle_node(int nodes, const double* factors, double* b) {
-  using At = Layout<B, K>;
+  using At = Layout<B, F>;
   const double* diagonal = factors + At::at(nodes / 2);
   b += static_cast<long>(B) * (nodes / 2);
   Column<B> c;
@@ -147,21 +169,24 @@ void solve_middle_node(int nodes, const double* factors, double* b) {
   if (nodes > 2) subtract_product<B>(c, factors + At::right_column(nodes), b + B);
   c.store(b);
   solve_lower<B>(diagonal, b);
-  solve_upper<B>(diagonal, b);
+  if constexpr (At::symmetric)
+    divide_by_pivots<B>(diagonal, b), solve_lower_transposed<B>(diagonal, b);
+  else
+    solve_upper<B>(diagonal, b);
 }
 
-template <int B, Front Side, Keep K>
+template <int B, Front Side, Factors F>
 void backward_front(int nodes, const double* factors, double* b) {
-  Substitution<B, Side, K> front;
+  Substitution<B, Side, F> front;
   front.start_backward(nodes, factors, b);
   for (int k = nodes_of<Side>(nodes); k > 0; --k) front.backward();
 }
 
-template <int B, Keep K>
+template <int B, Factors F>
 void backward_both(int nodes, const double* factors, double* b) {
   const int pairs = nodes_of<Front::right>(nodes);
-  Substitution<B, Front::left, K> left;
-  Substitution<B, Front::right, K> right;
+  Substitution<B, Front::left, F> left;
+  Substitution<B, Front::right, F> right;
   left.start_backward(nodes, factors, b), right.start_backward(nodes, factors, b);
   for (int k = 0; k < pairs; ++k) left.backward(), right.backward();
   if (pairs < nodes_of<Front::left>(nodes)) left.backward();

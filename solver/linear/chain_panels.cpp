@@ -10,9 +10,9 @@ constexpr int slots = 1 + panel_elements + 2;
 
 }  // namespace
 
-void ChainPanels::start(const ChainKernel& kernel, MatrixPanels& panels, int index, const Chain& chain, Keep keep, double* factors, double* b) {
+void ChainPanels::start(const ChainKernel& kernel, MatrixPanels& panels, int index, const Chain& chain, Factors form, double* factors, double* b) {
   kernel_ = &kernel;
-  keep_ = keep;
+  form_ = form;
   panels_ = &panels;
   factors_ = factors;
   b_ = b;
@@ -37,7 +37,7 @@ void ChainPanels::eliminate(Front side, PivotWatch& watch) {
     FrontRun none, also_none;
     if (left) make_next_left();
     if (right) make_next_right();
-    kernel_->eliminate_runs(block_, nodes_, keep_, left ? left_.run : none, right ? right_.run : also_none, factors_, b_, watch);
+    kernel_->eliminate_runs(block_, nodes_, form_, left ? left_.run : none, right ? right_.run : also_none, factors_, b_, watch);
     if (left) copy_nodes(slot(left_, panel_elements - 1), slot(left_, -1), 1);
   }
 }
@@ -65,9 +65,9 @@ void ChainPanels::eliminate_middle(PivotWatch& watch) {
   }
   reach(Front::left, middle, left_, panel);
   reach(Front::right, nodes_ - 1 - middle, left_, panel);
-  kernel_->eliminate_runs(block_, nodes_, keep_, left_.run, right_.run, factors_, b_, watch);
-  kernel_->factorize_middle(block_, nodes_, keep_, slot(left_, middle - first_node_of_panel(panel)), factors_, watch);
-  kernel_->solve_middle(block_, nodes_, keep_, factors_, b_);
+  kernel_->eliminate_runs(block_, nodes_, form_, left_.run, right_.run, factors_, b_, watch);
+  kernel_->factorize_middle(block_, nodes_, form_, slot(left_, middle - first_node_of_panel(panel)), factors_, watch);
+  kernel_->solve_middle(block_, nodes_, form_, factors_, b_);
 }
 
 void ChainPanels::copy_nodes(const double* from, double* to, int count) const {

@@ -15,7 +15,7 @@ namespace hawser {
 class ChainPanels {
  public:
   /// index: of the chain in the panels. b: of the chain.
-  void start(const ChainKernel& kernel, MatrixPanels& panels, int index, const Chain& chain, Keep keep, double* factors, double* b);
+  void start(const ChainKernel& kernel, MatrixPanels& panels, int index, const Chain& chain, Factors form, double* factors, double* b);
 
   /// The panels on one side of the middle one, or on both. The sides do not depend on each other.
   void eliminate(Front side, PivotWatch& watch);
@@ -41,7 +41,7 @@ class ChainPanels {
 
   const ChainKernel* kernel_ = nullptr;
   MatrixPanels* panels_ = nullptr;
-  Keep keep_ = Keep::all;
+  Factors form_ = Factors::lu;
   double *factors_ = nullptr, *b_ = nullptr;
   int index_ = 0, block_ = 0, node_size_ = 0, nodes_ = 0, middle_panel_ = 0, last_panel_ = 0;
   Side left_, right_;

@@ -32,7 +32,7 @@ class ChainSolver final : public LinearSolver {
 
   void analyze(const BlockTridiagonal& pattern) override {
     chains_.assign(pattern.chains().begin(), pattern.chains().end());
-    for ([[maybe_unused]] const Chain& c : chains_) assert(c.block == 3 || c.block == 6);
+    for ([[maybe_unused]] const Chain& c : chains_) assert(c.block == 3 || c.block == 6 || c.block == 7);
     factors_.resize(pattern.values().size());
     pivoted_.reset();
     fell_back_ = false;
@@ -41,17 +41,16 @@ class ChainSolver final : public LinearSolver {
   FactorReport factorize(const BlockTridiagonal& matrix) override {
     assert(matrix.chains().size() == chains_.size());
     PivotWatch watch;
-    kept_ = true;
+    symmetry_ = matrix.symmetry(), unsymmetric_form_ = Factors::lu;
     for (const Chain& c : chains_) factorize(c, matrix.values().data() + c.first_value, watch);
     fell_back_ = !accurate(watch);
     return fell_back_ ? factorize_pivoted(matrix) : report_of(watch);
   }
 
-  FactorReport factorize_and_solve(MatrixPanels& panels, std::span<double> b) override { return eliminate(panels, b, Keep::all); }
-  FactorReport solve_once(MatrixPanels& panels, std::span<double> b) override { return eliminate(panels, b, Keep::solution); }
+  FactorReport factorize_and_solve(MatrixPanels& panels, std::span<double> b) override { return eliminate(panels, b, Factors::lu); }
+  FactorReport solve_once(MatrixPanels& panels, std::span<double> b) override { return eliminate(panels, b, Factors::spent_lu); }
 
   void solve(std::span<double> b) override {
-    assert(kept_ || fell_back_);
     if (fell_back_) return pivoted_->solve(b);
     for (const Chain& c : chains_) solve(c, b.data() + c.first_dof);
   }
@@ -59,14 +58,14 @@ class ChainSolver final : public LinearSolver {
   std::size_t bytes() const override { return sizeof(double) * factors_.size() + (pivoted_ ? pivoted_->bytes() : 0); }
 
  private:
-  FactorReport eliminate(MatrixPanels& panels, std::span<double> b, Keep keep) {
+  FactorReport eliminate(MatrixPanels& panels, std::span<double> b, Factors unsymmetric_form) {
     PivotWatch watch;
-    kept_ = keep == Keep::all;
+    symmetry_ = panels.symmetry(), unsymmetric_form_ = unsymmetric_form;
     for (std::size_t i = 0; i < chains_.size(); ++i) {
       const Chain& c = chains_[i];
-      panels_.start(kernel_, panels, static_cast<int>(i), c, keep, factors_of(c), b.data() + c.first_dof);
+      panels_.start(kernel_, panels, static_cast<int>(i), c, form(c), factors_of(c), b.data() + c.first_dof);
       eliminate_panels(c, watch);
-      backward(c, keep, b.data() + c.first_dof);
+      backward(c, b.data() + c.first_dof);
     }
     fell_back_ = !accurate(watch);
     if (!fell_back_) return report_of(watch);
@@ -74,6 +73,9 @@ class ChainSolver final : public LinearSolver {
     if (report.status == FactorStatus::ok) pivoted_->solve(b);
     return report;
   }
+
+  /// With 3 unknowns a node L Delta L^T gains nothing where the factors stay in the cache (README.md).
+  Factors form(const Chain& c) const { return symmetry_ == Symmetry::symmetric && c.block > 3 ? Factors::ldlt : unsymmetric_form_; }
 
   static bool accurate(const PivotWatch& watch) {
     const bool pivots_usable = watch.not_finite == 0.0 && usable_pivot(watch.smallest) && usable_pivot(watch.largest);
@@ -94,15 +96,15 @@ class ChainSolver final : public LinearSolver {
       PivotWatch watch_right;
 #pragma omp parallel sections num_threads(2)
       {
-        kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::left, watch);
+        kernel_.factorize(c.block, c.nodes, form(c), values, factors_of(c), Front::left, watch);
 #pragma omp section
-        kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::right, watch_right);
+        kernel_.factorize(c.block, c.nodes, form(c), values, factors_of(c), Front::right, watch_right);
       }
       watch.add(watch_right);
     } else {
-      kernel_.factorize(c.block, c.nodes, values, factors_of(c), Front::both, watch);
+      kernel_.factorize(c.block, c.nodes, form(c), values, factors_of(c), Front::both, watch);
     }
-    kernel_.factorize_middle(c.block, c.nodes, Keep::all, values + std::size_t{3} * c.block * c.block * (c.nodes / 2), factors_of(c), watch);
+    kernel_.factorize_middle(c.block, c.nodes, form(c), values + std::size_t{3} * c.block * c.block * (c.nodes / 2), factors_of(c), watch);
   }
 
   void eliminate_panels(const Chain& c, PivotWatch& watch) {
@@ -122,13 +124,14 @@ class ChainSolver final : public LinearSolver {
   }
 
   void solve(const Chain& c, double* b) {
-    on_both_fronts(c, [&](Front front) { kernel_.forward(c.block, c.nodes, factors_of(c), b, front); });
-    kernel_.solve_middle(c.block, c.nodes, Keep::all, factors_of(c), b);
-    backward(c, Keep::all, b);
+    assert(form(c) != Factors::spent_lu);
+    on_both_fronts(c, [&](Front front) { kernel_.forward(c.block, c.nodes, form(c), factors_of(c), b, front); });
+    kernel_.solve_middle(c.block, c.nodes, form(c), factors_of(c), b);
+    backward(c, b);
   }
 
-  void backward(const Chain& c, Keep keep, double* b) {
-    on_both_fronts(c, [&](Front front) { kernel_.backward(c.block, c.nodes, keep, factors_of(c), b, front); });
+  void backward(const Chain& c, double* b) {
+    on_both_fronts(c, [&](Front front) { kernel_.backward(c.block, c.nodes, form(c), factors_of(c), b, front); });
   }
 
   template <class Substitution>
@@ -164,7 +167,9 @@ class ChainSolver final : public LinearSolver {
   AlignedVector<double> factors_;
   std::unique_ptr<BandSolver> pivoted_;
   ChainPanels panels_;
-  bool fell_back_ = false, kept_ = false;
+  Symmetry symmetry_ = Symmetry::unknown;
+  Factors unsymmetric_form_ = Factors::lu;
+  bool fell_back_ = false;
 };
 
 }  // namespace

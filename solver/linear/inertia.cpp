@@ -10,7 +10,7 @@ namespace hawser {
 namespace {
 
 constexpr double zero_pivot = 1e-14;  // of the largest diagonal entry
-constexpr int max_block = 6;
+constexpr int max_block = 7;
 
 // Lower triangle of the two nodes at work: the first is eliminated, the second moves up.
 class Window {

@@ -1,12 +1,14 @@
 // The chain solver on tangents as the program assembles them: taut, slack, compressed and badly scaled lines, statics and dynamics.
 //
 // The tolerance of 1e-14 is the promise of the contract, by elimination as it is or by the solver's own fallback.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/assembler.hpp"
+#include "assembly/symmetry.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "tests/solver/linear/random_chains.hpp"
 #include "tests/support/scene_samples.hpp"
@@ -45,12 +47,20 @@ Scene plain_line(int elements, double EA, double EI) {
   return scene;
 }
 
-Outcome solve_tangent(const Scene& scene, double stretch, const TangentWeights& weights) {
+enum class Water { flowing, still };
+
+/// In still water at rest, declared as statics does.
+Outcome solve_tangent(Scene scene, double stretch, const TangentWeights& weights, Water water = Water::flowing) {
+  if (water == Water::still) scene.environment.current.clear();
   const Model model = build_model(scene);
   const Assembler assembler(model);
   Tangent tangent = assembler.make_tangent();
   std::vector<double> residual(model.unknowns), b(model.dofs);
-  assembler.tangent(waved_state(model, stretch), weights, {}, residual, tangent);
+  State state = waved_state(model, stretch);
+  if (water == Water::still) std::fill(state.v.begin(), state.v.end(), 0.0);
+  assembler.tangent(state, weights, {}, residual, tangent);
+  if (water == Water::still) tangent.chain.declare(static_symmetry(model, state));
+  EXPECT_EQ(tangent.chain.symmetry(), water == Water::still ? Symmetry::symmetric : Symmetry::unknown);
   assembler.reduce(tangent, residual, b);
   const auto solver = make_linear_solver(LinearSolverKind::chain);
   solver->analyze(tangent.chain);
@@ -77,6 +87,32 @@ TEST(ChainAccuracy, OnTautSlackAndCompressedLines) {
           if (outcome.report.fell_back || outcome.report.negative_pivots > 0) ++indefinite;
         }
   EXPECT_GT(indefinite, 0);
+}
+
+TEST(ChainAccuracy, OnSymmetricTangentsOfTautSlackAndCompressedLines) {
+  int indefinite = 0, eliminated = 0;
+  for (const double stretch : {1.002, 1.0, 0.999, 0.9})
+    for (const double EI : {0.0, 1.0, 1e4})
+      for (const int elements : {20, 81}) {
+        SCOPED_TRACE(fmt::format("stretch {}, EI {}, {} elements", stretch, EI, elements));
+        const Outcome outcome = solve_tangent(plain_line(elements, 2e6, EI), stretch, statics, Water::still);
+        ASSERT_EQ(outcome.report.status, FactorStatus::ok) << outcome.report.message;
+        EXPECT_LE(outcome.backward_error, promised);
+        if (outcome.report.fell_back || outcome.report.negative_pivots > 0) ++indefinite;
+        if (!outcome.report.fell_back) ++eliminated;
+      }
+  EXPECT_GT(indefinite, 0);
+  EXPECT_GT(eliminated, 0);
+}
+
+TEST(ChainAccuracy, OnSymmetricTangentsWithStiffnessesTwelveDecadesApart) {
+  for (const double ratio : {1e4, 1e8, 1e12})
+    for (const double stretch : {1.002, 0.999}) {
+      SCOPED_TRACE(fmt::format("EA/EI {}, stretch {}", ratio, stretch));
+      const Outcome outcome = solve_tangent(plain_line(60, ratio, 1.0), stretch, statics, Water::still);
+      ASSERT_EQ(outcome.report.status, FactorStatus::ok) << outcome.report.message;
+      EXPECT_LE(outcome.backward_error, promised);
+    }
 }
 
 TEST(ChainAccuracy, WithStiffnessesTwelveDecadesApart) {

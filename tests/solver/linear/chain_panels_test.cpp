@@ -13,6 +13,7 @@
 #include "solver/linear/linear_solver.hpp"
 #include "solver/statics.hpp"
 #include "tests/solver/linear/random_chains.hpp"
+#include "tests/solver/linear/stored_panels.hpp"
 #include "tests/support/scene_samples.hpp"
 
 namespace hawser {
@@ -195,40 +196,9 @@ TEST(ChainPanels, AreTakenWholeBySolversThatNeedTheMatrix) {
   EXPECT_EQ(together(model, state, {}, 1, LinearSolverKind::cholmod).report.status, FactorStatus::not_applicable);
 }
 
-/// A stored system as panels; a share of every panel's first D comes with the panel before.
-class StoredPanels final : public MatrixPanels {
- public:
-  StoredPanels(const BlockTridiagonal& matrix, std::vector<double> b, std::span<double> out) : matrix_(matrix), b_(std::move(b)), out_(out) {}
-
-  void make(int chain, int panel, double* values) override {
-    const Chain& c = matrix_.chains()[chain];
-    const int first = first_node_of_panel(panel), nodes = nodes_of_panel(panel, c.nodes), size = c.block * c.block;
-    std::copy_n(matrix_.D(c, first), 3 * size * nodes, values);
-    if (panel > 0) values[0] -= carried;
-    std::copy_n(&b_[c.dof(first)], c.block * nodes, &out_[c.dof(first)]);
-    if (panel > 0) out_[c.dof(first)] -= carried;
-  }
-  void add_carry(int chain, int panel, double* next_D) override {
-    next_D[0] += carried;
-    const Chain& c = matrix_.chains()[chain];
-    out_[c.dof(first_node_of_panel(panel + 1))] += carried;
-  }
-  const BlockTridiagonal& whole() override {
-    std::copy(b_.begin(), b_.end(), out_.begin());
-    return matrix_;
-  }
-
- private:
-  static constexpr double carried = 0.25;  // a power of two: adding it back leaves numbers of its size as they were
-
-  const BlockTridiagonal& matrix_;
-  std::vector<double> b_;
-  std::span<double> out_;
-};
-
 // 1e-14 is the promise of the contract (linear_solver.hpp).
 TEST(ChainPanels, SolveSeveralChainsAndFallBackToExchangesOfRows) {
-  const test::Shape shapes[] = {{6, 200}, {3, 130}, {6, 1}, {3, 2}, {6, 65}, {6, 129}};
+  const test::Shape shapes[] = {{6, 200}, {3, 130}, {6, 1}, {7, 70}, {3, 2}, {6, 65}, {7, 129}};
   for (const bool regular : {true, false}) {
     BlockTridiagonal a = test::random_matrix(test::Kind::positive_definite, shapes, 7);
     if (!regular) a.D(a.chains()[0], 70)[0] = a.D(a.chains()[0], 0)[0] = 0.0;
@@ -236,7 +206,7 @@ TEST(ChainPanels, SolveSeveralChainsAndFallBackToExchangesOfRows) {
     const auto solver = make_linear_solver(LinearSolverKind::chain);
     solver->analyze(a);
     std::vector<double> x(a.dofs());
-    StoredPanels panels(a, b, x);
+    test::StoredPanels panels(a, b, x);
     const FactorReport report = solver->factorize_and_solve(panels, x);
     ASSERT_EQ(report.status, FactorStatus::ok);
     EXPECT_EQ(report.fell_back, !regular);
@@ -244,7 +214,7 @@ TEST(ChainPanels, SolveSeveralChainsAndFallBackToExchangesOfRows) {
     std::vector<double> again = b;
     solver->solve(again);
     EXPECT_LT(test::backward_error(test::dense(a), again, b), 1e-14) << "the factors stay";
-    StoredPanels spent(a, b, again);
+    test::StoredPanels spent(a, b, again);
     EXPECT_EQ(solver->solve_once(spent, again).fell_back, !regular);
     EXPECT_EQ(again, x) << "the factors do not stay";
   }

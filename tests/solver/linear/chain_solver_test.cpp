@@ -1,13 +1,10 @@
 // What only the chain solver promises: when it exchanges rows, what it counts, what it costs in memory.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "solver/linear/chain_kernel.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "tests/solver/linear/random_chains.hpp"
 
@@ -88,7 +85,7 @@ TEST(ChainSolver, ExchangesRowsWhenAPivotIsZeroOrTinyAndReturnsWhenItIsNot) {
 }
 
 TEST(ChainSolver, CountsTheNegativeEigenvaluesOfASymmetricMatrix) {
-  const std::vector<Shape> shapes = {{6, 15}, {3, 20}};
+  const std::vector<Shape> shapes = {{6, 15}, {3, 20}, {7, 8}};
   int counted = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     BlockTridiagonal a = test::random_matrix(Kind::positive_definite, shapes, seed);
@@ -134,7 +131,7 @@ TEST(ChainSolver, SolvesAHundredThousandNodes) {
 }
 
 TEST(ChainSolver, GivesTheSameBitsWithTwoThreads) {
-  for (const Shape shape : {Shape{6, 20001}, Shape{3, 20000}}) {
+  for (const Shape shape : {Shape{6, 20001}, Shape{3, 20000}, Shape{7, 12000}}) {
     const BlockTridiagonal a = test::random_matrix(Kind::positive_definite, {&shape, 1}, 6);
     const std::vector<double> b = test::random_vector(a.dofs(), 7);
     std::vector<double> x[2] = {b, b};
@@ -150,103 +147,6 @@ TEST(ChainSolver, GivesTheSameBitsWithTwoThreads) {
     EXPECT_EQ(report[0].smallest_pivot, report[1].smallest_pivot);
     EXPECT_EQ(report[0].largest_pivot, report[1].largest_pivot);
   }
-}
-
-struct KernelAnswer {
-  std::vector<double> factors, x;
-  PivotWatch watch;
-};
-
-KernelAnswer answer_of(const ChainKernel& kernel, const BlockTridiagonal& a, const std::vector<double>& b, std::span<const Front> fronts) {
-  const Chain& c = a.chains()[0];
-  KernelAnswer answer{std::vector<double>(a.values().size()), b, {}};
-  double *factors = answer.factors.data(), *x = answer.x.data();
-  for (const Front front : fronts) kernel.factorize(c.block, c.nodes, a.values().data(), factors, front, answer.watch);
-  kernel.factorize_middle(c.block, c.nodes, Keep::all, a.D(c, c.nodes / 2), factors, answer.watch);
-  for (const Front front : fronts) kernel.forward(c.block, c.nodes, factors, x, front);
-  kernel.solve_middle(c.block, c.nodes, Keep::all, factors, x);
-  for (const Front front : fronts) kernel.backward(c.block, c.nodes, Keep::all, factors, x, front);
-  return answer;
-}
-
-constexpr std::array together = {Front::both};
-constexpr std::array one_by_one = {Front::right, Front::left};
-
-TEST(ChainKernels, OfAllInstructionSetsAgree) {
-  for (const int block : {3, 6})
-    for (const int nodes : {1, 2, 3, 4, 5, 40, 41}) {
-      const Shape shape{block, nodes};
-      const BlockTridiagonal a = test::random_matrix(Kind::positive_definite, {&shape, 1}, 2);
-      const std::vector<double> b = test::random_vector(a.dofs(), 3);
-      for (const ChainKernel* kernel : chain_kernels()) {
-        SCOPED_TRACE(fmt::format("{}, {} nodes of {}", kernel->instruction_set, nodes, block));
-        const KernelAnswer answer = answer_of(*kernel, a, b, together);
-        EXPECT_LE(test::backward_error(test::dense(a), answer.x, b), 5e-16);
-        EXPECT_EQ(answer.watch.negative, 0);
-        EXPECT_GT(answer.watch.smallest, 0.0);
-        EXPECT_EQ(answer.watch.not_finite, 0.0);
-        EXPECT_LE(answer.watch.growth_squared, 1.0 + 1e-12);  // the Frobenius norm cannot grow in a positive definite matrix
-      }
-    }
-}
-
-TEST(ChainKernels, GiveTheSameBitsFrontByFront) {
-  for (const Kind kind : {Kind::positive_definite, Kind::unsymmetric})
-    for (const int block : {3, 6})
-      for (const int nodes : {1, 2, 3, 4, 5, 40, 41}) {
-        const Shape shape{block, nodes};
-        const BlockTridiagonal a = test::random_matrix(kind, {&shape, 1}, 4);
-        const std::vector<double> b = test::random_vector(a.dofs(), 5);
-        for (const ChainKernel* kernel : chain_kernels()) {
-          SCOPED_TRACE(fmt::format("{}, {} nodes of {}", kernel->instruction_set, nodes, block));
-          const KernelAnswer at_once = answer_of(*kernel, a, b, together), in_turn = answer_of(*kernel, a, b, one_by_one);
-          EXPECT_EQ(at_once.factors, in_turn.factors);
-          EXPECT_EQ(at_once.x, in_turn.x);
-          EXPECT_EQ(at_once.watch.negative, in_turn.watch.negative);
-          EXPECT_EQ(at_once.watch.growth_squared, in_turn.watch.growth_squared);
-        }
-      }
-}
-
-/// Elimination with its right-hand side in runs of `length` nodes of both fronts.
-KernelAnswer answer_in_runs(const ChainKernel& kernel, Keep keep, int length, const BlockTridiagonal& a, const std::vector<double>& b) {
-  const Chain& c = a.chains()[0];
-  KernelAnswer answer{std::vector<double>(a.values().size()), b, {}};
-  double *factors = answer.factors.data(), *x = answer.x.data();
-  const int left_nodes = c.nodes / 2, right_nodes = c.nodes - 1 - left_nodes;
-  FrontRun left, right;
-  while (left.first < left_nodes || right.first < right_nodes) {
-    left.count = std::min(length, left_nodes - left.first), right.count = std::min(length + 1, right_nodes - right.first);
-    left.values = a.D(c, left.first), right.values = a.D(c, c.nodes - 1 - right.first);
-    kernel.eliminate_runs(c.block, c.nodes, keep, left, right, factors, x, answer.watch);
-  }
-  kernel.factorize_middle(c.block, c.nodes, keep, a.D(c, left_nodes), factors, answer.watch);
-  kernel.solve_middle(c.block, c.nodes, keep, factors, x);
-  kernel.backward(c.block, c.nodes, keep, factors, x, Front::both);
-  return answer;
-}
-
-TEST(ChainKernels, GiveTheSameBitsWhateverTheyKeepAndInRunsOfAnyLength) {
-  for (const int block : {3, 6})
-    for (const int nodes : {1, 2, 3, 4, 5, 40, 41}) {
-      const Shape shape{block, nodes};
-      const BlockTridiagonal a = test::random_matrix(Kind::unsymmetric, {&shape, 1}, 4);
-      const std::vector<double> b = test::random_vector(a.dofs(), 5);
-      for (const ChainKernel* kernel : chain_kernels()) {
-        const KernelAnswer whole = answer_of(*kernel, a, b, together);
-        for (const Keep keep : {Keep::all, Keep::solution})
-          for (const int length : {1, 7, 100}) {
-            SCOPED_TRACE(
-                fmt::format("{}, {} nodes of {}, keeping {}, runs of {}", kernel->instruction_set, nodes, block, static_cast<int>(keep), length));
-            const KernelAnswer in_runs = answer_in_runs(*kernel, keep, length, a, b);
-            EXPECT_EQ(in_runs.x, whole.x);
-            EXPECT_EQ(in_runs.watch.negative, whole.watch.negative);
-            EXPECT_EQ(in_runs.watch.smallest, whole.watch.smallest);
-            EXPECT_EQ(in_runs.watch.largest, whole.watch.largest);
-            EXPECT_NEAR(in_runs.watch.growth_squared, whole.watch.growth_squared, 1e-14 * whole.watch.growth_squared);
-          }
-      }
-    }
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 using test::Kind;
 using test::Shape;
 
-const std::vector<Shape> shapes = {{6, 12}, {3, 1}, {3, 17}};
+const std::vector<Shape> shapes = {{6, 12}, {3, 1}, {3, 17}, {7, 9}};
 
 TEST(Inertia, OfAPositiveDefiniteMatrixIsAllPositive) {
   const Inertia inertia = inertia_of_symmetric_part(test::random_matrix(Kind::positive_definite, shapes, 1));

@@ -25,8 +25,9 @@ const std::vector<std::pair<std::string, std::vector<Shape>>> shapes = {
     {"one_node", {{6, 1}}},
     {"bars", {{3, 40}}},
     {"cable", {{6, 50}}},
+    {"rod", {{7, 45}}},
     {"two_bar_lines", {{3, 7}, {3, 12}}},
-    {"mixed_lines", {{6, 20}, {3, 1}, {3, 30}, {6, 2}}},
+    {"mixed_lines", {{6, 20}, {3, 1}, {7, 12}, {3, 30}, {6, 2}}},
 };
 
 class EveryLinearSolver : public testing::TestWithParam<std::tuple<LinearSolverKind, Kind, std::size_t>> {
