@@ -3,6 +3,8 @@
 // Elimination without exchanges has backward error |dA| <= c eps |L||U|. Its kernel measures the growth g of the worked entries node by node;
 // when eps g would pass 1e-14 relative to the entries given, or a pivot is zero or not finite, the matrix is factorized again by the band
 // solver, which exchanges rows. A well-posed statics or dynamics tangent never gets there.
+#include <omp.h>
+
 #include <cassert>
 #include <cmath>
 #include <memory>
@@ -64,8 +66,7 @@ class ChainSolver final : public LinearSolver {
     for (std::size_t i = 0; i < chains_.size(); ++i) {
       const Chain& c = chains_[i];
       panels_.start(kernel_, panels, static_cast<int>(i), c, form(c), factors_of(c), b.data() + c.first_dof);
-      eliminate_panels(c, watch);
-      backward(c, b.data() + c.first_dof);
+      eliminate(c, b.data() + c.first_dof, watch);
     }
     fell_back_ = !accurate(watch);
     if (!fell_back_) return report_of(watch);
@@ -90,62 +91,52 @@ class ChainSolver final : public LinearSolver {
     return report;
   }
 
-  // Two threads take a front each. The numbers are those of one thread.
   void factorize(const Chain& c, const double* values, PivotWatch& watch) {
-    if (threads_ > 1 && c.nodes >= nodes_to_share_factorization) {
-      PivotWatch watch_right;
-#pragma omp parallel sections num_threads(2)
-      {
-        kernel_.factorize(c.block, c.nodes, form(c), values, factors_of(c), Front::left, watch);
-#pragma omp section
-        kernel_.factorize(c.block, c.nodes, form(c), values, factors_of(c), Front::right, watch_right);
-      }
-      watch.add(watch_right);
-    } else {
-      kernel_.factorize(c.block, c.nodes, form(c), values, factors_of(c), Front::both, watch);
-    }
-    kernel_.factorize_middle(c.block, c.nodes, form(c), values + std::size_t{3} * c.block * c.block * (c.nodes / 2), factors_of(c), watch);
+    const double* middle = values + std::size_t{3} * c.block * c.block * (c.nodes / 2);
+    on_fronts(
+        c, nodes_to_share_factorization, watch,
+        [&](Front front, PivotWatch& w) { kernel_.factorize(c.block, c.nodes, form(c), values, factors_of(c), front, w); },
+        [&](PivotWatch& w) { kernel_.factorize_middle(c.block, c.nodes, form(c), middle, factors_of(c), w); }, nothing);
   }
 
-  void eliminate_panels(const Chain& c, PivotWatch& watch) {
-    if (threads_ > 1 && c.nodes >= nodes_to_share_panels) {
-      PivotWatch watch_right;
-#pragma omp parallel sections num_threads(2)
-      {
-        panels_.eliminate(Front::left, watch);
-#pragma omp section
-        panels_.eliminate(Front::right, watch_right);
-      }
-      watch.add(watch_right);
-    } else {
-      panels_.eliminate(Front::both, watch);
-    }
-    panels_.eliminate_middle(watch);
+  void eliminate(const Chain& c, double* b, PivotWatch& watch) {
+    on_fronts(
+        c, nodes_to_share_panels, watch, [&](Front front, PivotWatch& w) { panels_.eliminate(front, w); },
+        [&](PivotWatch& w) { panels_.eliminate_middle(w); },
+        [&](Front front) { kernel_.backward(c.block, c.nodes, form(c), factors_of(c), b, front); });
   }
 
   void solve(const Chain& c, double* b) {
     assert(form(c) != Factors::spent_lu);
-    on_both_fronts(c, [&](Front front) { kernel_.forward(c.block, c.nodes, form(c), factors_of(c), b, front); });
-    kernel_.solve_middle(c.block, c.nodes, form(c), factors_of(c), b);
-    backward(c, b);
+    PivotWatch unread;
+    on_fronts(
+        c, nodes_to_share_solve, unread, [&](Front front, PivotWatch&) { kernel_.forward(c.block, c.nodes, form(c), factors_of(c), b, front); },
+        [&](PivotWatch&) { kernel_.solve_middle(c.block, c.nodes, form(c), factors_of(c), b); },
+        [&](Front front) { kernel_.backward(c.block, c.nodes, form(c), factors_of(c), b, front); });
   }
 
-  void backward(const Chain& c, double* b) {
-    on_both_fronts(c, [&](Front front) { kernel_.backward(c.block, c.nodes, form(c), factors_of(c), b, front); });
-  }
+  static constexpr auto nothing = [](Front) {};
 
-  template <class Substitution>
-  void on_both_fronts(const Chain& c, Substitution substitute) {
-    if (threads_ > 1 && c.nodes >= nodes_to_share_solve) {
-#pragma omp parallel sections num_threads(2)
-      {
-        substitute(Front::left);
-#pragma omp section
-        substitute(Front::right);
-      }
-    } else {
-      substitute(Front::both);
+  /// Towards the middle node, there, and back. Of two threads each keeps to its front, whose numbers stay in its cache; the numbers are those of
+  /// one thread.
+  template <class Inwards, class Middle, class Outwards>
+  void on_fronts(const Chain& c, int nodes_to_share, PivotWatch& watch, Inwards inwards, Middle at_middle, Outwards outwards) {
+    if (threads_ == 1 || c.nodes < nodes_to_share) {
+      inwards(Front::both, watch), at_middle(watch), outwards(Front::both);
+      return;
     }
+    PivotWatch watch_right;
+#pragma omp parallel num_threads(2)
+    {
+      const bool alone = omp_get_num_threads() == 1, right = omp_get_thread_num() == 1;
+      const Front front = alone ? Front::both : right ? Front::right : Front::left;
+      inwards(front, right ? watch_right : watch);
+#pragma omp barrier
+      if (!right) at_middle(watch);
+#pragma omp barrier
+      outwards(front);
+    }
+    watch.add(watch_right);
   }
 
   double* factors_of(const Chain& c) { return factors_.data() + c.first_value; }
