@@ -189,50 +189,54 @@ HAWSER_INLINE void nodal_force(const Integrand<Family, S>& in, V3<S>* f) {
 inline constexpr int transposed_index[9] = {0, 3, 6, 1, 4, 7, 2, 5, 8};
 inline constexpr double identity_components[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/// Component c of the elastic blocks: formed for d, e and f, where A_1 = 1 and B_1 = 0, then for the half sums and differences.
+/// Adds component c of what acts at the middle through r', and of the mass that three Gauss points miss: formed for d and e, where A_1 = 1.
 template <class Family, class S>
-HAWSER_INLINE void elastic_component(const Integrand<Family, S>& in, int c, S (*G)[Family::Shape::modes]) {
+HAWSER_INLINE void add_middle_component(const Integrand<Family, S>& in, int c, S (*G)[Family::Shape::modes]) {
   using Shape = typename Family::Shape;
   const S per_y = S(2.0) * in.inverse_length;
   const S axial = in.axial_tangent.m[c];
   if constexpr (Shape::modes == 2) {
-    G[1][1] = per_y * per_y * axial;
+    G[1][1] = G[1][1] + per_y * per_y * axial;
   } else {
-    constexpr double A2 = outer<Shape, Channel::a, 2>, A2c = centre<Shape, Channel::a, 2>;
-    const S missed = in.missed_tangent * S(identity_components[c]);
-    S middle = axial, df(0.0), fd(0.0), ef(0.0), fe(0.0), ff(0.0);
-    if constexpr (Family::bends) middle = middle + in.at[1].Jaa.m[symmetric_index[c]];
-    S dd = middle, de = S(A2c) * middle, ed = de, ee = S(A2c * A2c) * middle + missed;
-    if constexpr (Family::bends) {
-      constexpr double A3 = outer<Shape, Channel::a, 3>, B2 = outer<Shape, Channel::b, 2>, B3 = outer<Shape, Channel::b, 3>;
-      const int t = transposed_index[c], s = symmetric_index[c];
-      const Response<S>* at = in.at;
-      const Pair<S> aa(at[0].Jaa.m[s], at[2].Jaa.m[s]), bb(at[0].Jbb.m[s], at[2].Jbb.m[s]);
-      const Pair<S> ab(at[0].Jab.m[c], at[2].Jab.m[c]), ba(at[0].Jab.m[t], at[2].Jab.m[t]);
-      const S ab1 = at[1].Jab.m[c], ba1 = at[1].Jab.m[t], both = ab.difference + ba.difference;
-      dd = dd + aa.sum;
-      de = de + S(A2) * aa.sum;
-      ed = de + S(B2) * ba.difference;
-      de = de + S(B2) * ab.difference;
-      ee = ee + S(A2 * A2) * aa.sum + S(A2 * B2) * both + S(B2 * B2) * bb.sum;
-      df = fd = S(A3) * aa.difference;
-      df = df + S(B3) * (ab.sum + ab1);
-      fd = fd + S(B3) * (ba.sum + ba1);
-      ef = fe = S(A2 * A3) * aa.difference + S(B2 * B3) * bb.difference;
-      ef = ef + S(A2 * B3) * ab.sum + S(A2c * B3) * ab1 + S(B2 * A3) * ba.sum;
-      fe = fe + S(A2 * B3) * ba.sum + S(A2c * B3) * ba1 + S(B2 * A3) * ab.sum;
-      ff = S(A3 * A3) * aa.sum + S(A3 * B3) * both + S(B3 * B3) * (bb.sum + at[1].Jbb.m[s]);
-    }
-    G[1][1] = per_y * per_y * (dd - de - ed + ee);
-    G[1][2] = per_y * (de - ee);
-    G[2][1] = per_y * (ed - ee);
-    G[2][2] = ee;
-    G[1][3] = per_y * (df - ef);
-    G[3][1] = per_y * (fd - fe);
-    G[2][3] = ef;
-    G[3][2] = fe;
-    G[3][3] = ff;
+    constexpr double A2 = centre<Shape, Channel::a, 2>;
+    const S ee = S(A2 * A2) * axial + in.missed_tangent * S(identity_components[c]);
+    const S de = per_y * (S(A2) * axial - ee);
+    G[1][1] = G[1][1] + per_y * (per_y * (S(1.0 - A2) * axial) - de);
+    G[1][2] = G[1][2] + de;
+    G[2][1] = G[2][1] + de;
+    G[2][2] = G[2][2] + ee;
   }
+}
+
+/// Component c of the blocks of bending: formed for d, e and f, where A_1 = 1 and B_1 = 0, then for the half sums and differences.
+template <class Family, class S>
+HAWSER_INLINE void bending_component(const Integrand<Family, S>& in, int c, S (*G)[Family::Shape::modes]) {
+  using Shape = typename Family::Shape;
+  const S per_y = S(2.0) * in.inverse_length;
+  constexpr double A2 = outer<Shape, Channel::a, 2>, A2c = centre<Shape, Channel::a, 2>;
+  constexpr double A3 = outer<Shape, Channel::a, 3>, B2 = outer<Shape, Channel::b, 2>, B3 = outer<Shape, Channel::b, 3>;
+  const int t = transposed_index[c], s = symmetric_index[c];
+  const Response<S>* at = in.at;
+  const Pair<S> aa(at[0].Jaa.m[s], at[2].Jaa.m[s]), bb(at[0].Jbb.m[s], at[2].Jbb.m[s]);
+  const Pair<S> ab(at[0].Jab.m[c], at[2].Jab.m[c]), ba(at[0].Jab.m[t], at[2].Jab.m[t]);
+  const S middle = at[1].Jaa.m[s], ab1 = at[1].Jab.m[c], ba1 = at[1].Jab.m[t], both = ab.difference + ba.difference;
+  const S dd = middle + aa.sum;
+  const S de0 = S(A2c) * middle + S(A2) * aa.sum, de = de0 + S(B2) * ab.difference, ed = de0 + S(B2) * ba.difference;
+  const S ee = S(A2c * A2c) * middle + S(A2 * A2) * aa.sum + S(A2 * B2) * both + S(B2 * B2) * bb.sum;
+  const S df0 = S(A3) * aa.difference, df = df0 + S(B3) * (ab.sum + ab1), fd = df0 + S(B3) * (ba.sum + ba1);
+  const S ef0 = S(A2 * A3) * aa.difference + S(B2 * B3) * bb.difference;
+  const S ef = ef0 + S(A2 * B3) * ab.sum + S(A2c * B3) * ab1 + S(B2 * A3) * ba.sum;
+  const S fe = ef0 + S(A2 * B3) * ba.sum + S(A2c * B3) * ba1 + S(B2 * A3) * ab.sum;
+  const S ff = S(A3 * A3) * aa.sum + S(A3 * B3) * both + S(B3 * B3) * (bb.sum + at[1].Jbb.m[s]);
+  G[1][1] = per_y * per_y * (dd - de - ed + ee);
+  G[1][2] = per_y * (de - ee);
+  G[2][1] = per_y * (ed - ee);
+  G[2][2] = ee;
+  G[1][3] = per_y * (df - ef);
+  G[3][1] = per_y * (fd - fe);
+  G[2][3] = ef;
+  G[3][2] = fe;
+  G[3][3] = ff;
 }
 
 /// Coefficients of r and r' for the half sums and differences of the nodes, in the outer points and in the middle.
@@ -306,16 +310,21 @@ HAWSER_INLINE void add_transverse_component(const Integrand<Family, S>& in, cons
   });
 }
 
-/// The elastic part of one component, from mode 1 on.
-template <int n, class S>
-HAWSER_INLINE void copy_modes(const S (&from)[n][n], S (&to)[n][n]) {
-  for (int i = 1; i < n; ++i)
-    for (int j = 1; j < n; ++j) to[i][j] = from[i][j];
-}
-template <int n, class S>
-HAWSER_INLINE void copy_modes_transposed(const S (&from)[n][n], S (&to)[n][n]) {
-  for (int i = 1; i < n; ++i)
-    for (int j = 1; j < n; ++j) to[i][j] = from[j][i];
+/// The bending part of component c, from mode 1 on. It is symmetric: component (j, i) is (i, j) transposed, which came first and was kept.
+template <class Family, class S>
+HAWSER_INLINE void symmetric_component(const Integrand<Family, S>& in, int c, S (*kept)[Family::Shape::modes][Family::Shape::modes],
+                                       S (*G)[Family::Shape::modes]) {
+  constexpr int n = Family::Shape::modes;
+  const int row = c % 3, column = c / 3, pair = row + column - 1;
+  if (row < column) {
+    for (int i = 1; i < n; ++i)
+      for (int j = 1; j < n; ++j) G[i][j] = kept[pair][j][i];
+  } else {
+    bending_component<Family>(in, c, G);
+    if (row == column) return;
+    for (int i = 1; i < n; ++i)
+      for (int j = 1; j < n; ++j) kept[pair][i][j] = G[i][j];
+  }
 }
 
 /// The tangent between node vectors, handed on component by component: sink(c, K) gets component c of all blocks, K[i][j] between node
@@ -325,23 +334,20 @@ HAWSER_INLINE void nodal_tangent(const Integrand<Family, S>& in, Sink&& sink) {
   using Shape = typename Family::Shape;
   constexpr int n = Shape::modes;
   const PairCoefficients<Shape, S> of(in.length, in.inverse_length);
-  S mirrored[3][n][n];  // the elastic part is symmetric: its component (j, i) is (i, j) transposed, which comes first
+  S kept[3][n][n];
 #pragma GCC unroll 1
   for (int c = 0; c < 9; ++c) {
     S G[n][n], half[n][n], K[n][n];
-    for (int i = 0; i < n; ++i) G[0][i] = G[i][0] = S(0.0);
-    const int row = c % 3, column = c / 3, pair = row + column - 1;
-    if (row < column)
-      copy_modes_transposed<n>(mirrored[pair], G);
-    else
-      elastic_component<Family>(in, c, G);
-    if (row > column) copy_modes<n>(G, mirrored[pair]);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) G[i][j] = S(0.0);
+    if constexpr (Family::bends) symmetric_component<Family>(in, c, kept, G);
+    add_middle_component<Family>(in, c, G);
     add_transverse_component<Family>(in, of, c, G);
     for (int i = 0; i < n; ++i) to_nodes<Shape>(G[i], half[i]);
     for (int j = 0; j < n; ++j) {
-      S column[n], nodal[n];
-      for (int i = 0; i < n; ++i) column[i] = half[i][j];
-      to_nodes<Shape>(column, nodal);
+      S at_column[n], nodal[n];
+      for (int i = 0; i < n; ++i) at_column[i] = half[i][j];
+      to_nodes<Shape>(at_column, nodal);
       for (int i = 0; i < n; ++i) K[i][j] = nodal[i];
     }
     sink(c, K);

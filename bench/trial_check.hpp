@@ -1,7 +1,8 @@
 // What must hold of a static answer, checked without the solver's own word for it (README.md, "The trial of statics").
 //
 //   equations    the residual, assembled anew, is below 1e-10 of the largest reaction (or of what rounding leaves)
-//   stability    the elastic tangent has no negative pivot, or no part of the line is compressed
+//   stability    no part of the line is compressed, or the elastic tangent has no negative pivot, or all eigenvalues of the whole tangent have
+//                positive real parts (trial_spectrum.hpp)
 //   balance      reactions + weight + bodies + drag + bed = 0, the loads integrated here along the shape
 //   hubs         the end forces of the lines that meet at a free point and the load there = 0
 //   catenary     closed form: span under the computed end force, and the minimum of the energy from its dual,
@@ -23,6 +24,7 @@
 #include "assembly/seabed.hpp"
 #include "bench/trial_networks.hpp"
 #include "bench/trial_scenes.hpp"
+#include "bench/trial_spectrum.hpp"
 #include "solver/norms.hpp"
 #include "solver/static_start_catenary.hpp"
 #include "solver/static_start_loads.hpp"
@@ -67,7 +69,9 @@ class TrialCheck {
     if (free_of_compression(model_, state_, roundoff_force(model_, state_))) return std::nullopt;
     const int pivots = negative_pivots_of_elastic_tangent(model_, state_);
     if (pivots == 0) return std::nullopt;
-    return fmt::format("unstable: {} negative pivots", pivots);
+    const double slowest = least_decay(model_, state_);
+    if (slowest > 0.0) return std::nullopt;
+    return fmt::format("unstable: {} negative pivots, slowest decay {:.2g} N/m2", pivots, slowest);
   }
 
   Complaint balance() const {

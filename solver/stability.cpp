@@ -1,7 +1,9 @@
 #include "solver/stability.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "assembly/assembler.hpp"
 #include "solver/bordered_solver.hpp"
@@ -14,6 +16,10 @@ constexpr double neutral_share = 1e-6;  // of reference force / length^2
 constexpr double bracket_width = 1e-3;  // relative
 constexpr int most_doublings = 60;      // of the first bracket
 constexpr int inverse_iterations = 12;
+constexpr int krylov_least = 40, krylov_most = 300;  // vectors
+constexpr int krylov_numbers = 6'000'000;            // in all of them, where that leaves more than the least
+constexpr double krylov_breakdown = 1e-12;
+constexpr double ritz_accuracy = 1e-3;  // of an eigenvalue of (K - sigma M)^-1 M
 
 double longest_line(const Model& model) {
   double longest = 0.0;
@@ -115,6 +121,77 @@ class Pencil {
   std::vector<double> mass_, chain_mass_;  // of the chains with the ends at hubs held
 };
 
+/// Eigenvalues of K x = kappa M x with all loads, from a Krylov space of A = (K - sigma M)^-1 M; M that of a unit mass. Vectors are scaled by the
+/// root of the lumped masses.
+class Krylov {
+ public:
+  Krylov(const Assembler& assembler, const State& state, double sigma)
+      : sigma_(sigma), mass_(assembler.make_tangent()), chains_(make_linear_solver(LinearSolverKind::automatic)), linear_(*chains_) {
+    const Model& model = assembler.model();
+    const std::vector<double> lumped = mode_mass(model);
+    root_ = Eigen::Map<const Eigen::VectorXd>(lumped.data(), static_cast<Eigen::Index>(lumped.size())).cwiseSqrt();
+    Tangent shifted = assembler.make_tangent();
+    std::vector<double> r(model.unknowns);
+    assembler.tangent(state, {0.0, 0.0, 1.0}, TangentFloor{}, r, mass_);
+    assembler.tangent(state, {1.0, 0.0, -sigma}, TangentFloor{}, r, shifted);
+    linear_.analyze(shifted);
+    if (linear_.factorize(shifted).status == FactorStatus::ok) span_space();
+  }
+
+  /// Those that are accurate; none where K - sigma M cannot be factorized.
+  std::vector<std::complex<double>> values() const {
+    std::vector<std::complex<double>> values;
+    if (size_ == 0) return values;
+    const Eigen::EigenSolver<Eigen::MatrixXd> eigen(H_.topLeftCorner(size_, size_));
+    for (Eigen::Index i = 0; i < size_; ++i) {
+      const std::complex<double> theta = eigen.eigenvalues()[i];
+      const double error = H_(size_, size_ - 1) * std::abs(eigen.eigenvectors()(size_ - 1, i)) / eigen.eigenvectors().col(i).norm();
+      if (error <= ritz_accuracy * std::abs(theta)) values.push_back(sigma_ + 1.0 / theta);
+    }
+    return values;
+  }
+
+ private:
+  Eigen::VectorXd times(const Eigen::VectorXd& x) {
+    const Eigen::VectorXd plain = (root_.array() > 0.0).select(x.cwiseQuotient(root_.cwiseMax(1e-300)), 0.0);
+    Eigen::VectorXd y(x.size());
+    const auto n = static_cast<std::size_t>(x.size());
+    multiply(mass_, {plain.data(), n}, {y.data(), n});
+    linear_.solve({y.data(), n});
+    return root_.cwiseProduct(y);
+  }
+
+  /// Arnoldi, orthogonalised twice.
+  void span_space() {
+    const Eigen::Index n = root_.size(), most = std::min(std::clamp<Eigen::Index>(krylov_numbers / n, krylov_least, krylov_most), n - 1);
+    Eigen::MatrixXd V(n, most + 1);
+    H_ = Eigen::MatrixXd::Zero(most + 1, most);
+    V.col(0) = root_.cwiseProduct(Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return 1.0 + 0.5 * std::sin(1.7 * static_cast<double>(i)); }));
+    V.col(0).normalize();
+    while (size_ < most) {
+      Eigen::VectorXd x = times(V.col(size_));
+      const double whole = x.norm();
+      for (int twice = 0; twice < 2; ++twice) {
+        const Eigen::VectorXd h = V.leftCols(size_ + 1).transpose() * x;
+        x -= V.leftCols(size_ + 1) * h;
+        H_.col(size_).head(size_ + 1) += h;
+      }
+      ++size_;
+      H_(size_, size_ - 1) = x.norm();
+      if (H_(size_, size_ - 1) <= krylov_breakdown * whole) return;
+      V.col(size_) = x.normalized();
+    }
+  }
+
+  double sigma_;
+  Tangent mass_;
+  std::unique_ptr<LinearSolver> chains_;
+  BorderedSolver linear_;
+  Eigen::VectorXd root_;
+  Eigen::MatrixXd H_;
+  Eigen::Index size_ = 0;
+};
+
 /// Scales the mode to 1 m at its largest displacement and says where that is.
 void normalise(const Model& model, StabilityMode& mode) {
   double largest = 0.0;
@@ -159,6 +236,18 @@ std::optional<StabilityMode> softest_mode(const Model& model, const State& state
   mode.negative_pivots = pencil.below(-neutral);
   normalise(model, mode);
   return mode;
+}
+
+std::optional<double> slowest_decay(const Model& model, const State& state, double softest) {
+  const Model massive = with_unit_mass(model);
+  const Assembler assembler(massive);
+  std::optional<double> slowest;
+  for (const double sigma : {0.0, -std::abs(softest)}) {
+    const Krylov krylov(assembler, state, sigma);
+    for (const std::complex<double>& value : krylov.values()) slowest = std::min(slowest.value_or(HUGE_VAL), value.real());
+    if (!slowest) return std::nullopt;
+  }
+  return slowest;
 }
 
 }  // namespace hawser

@@ -26,6 +26,13 @@ struct StabilityMode {
   Vec3 direction = Vec3::UnitX();  // of it; the first component above half of the largest is positive
 };
 
+/// With all loads, drag and friction too, K has no symmetry, and a state is stable where what is left of a displacement dies away in a medium that
+/// resists motion, M x' = -K x: where every eigenvalue of K x = kappa M x has a positive real part; M is here that of a unit mass per metre, as in
+/// creep.hpp. The least real part [N/m^2] among the eigenvalues next to 0 and next to -|softest| (the stiffness of the softest mode, what drag and
+/// friction have to make up for), from Krylov spaces of (K - sigma M)^-1 M; nothing where K is singular or no eigenvalue is accurate.
+/// Inner unknowns of joints follow at once, without a mass of their own. Costs up to 300 solutions for each sigma.
+std::optional<double> slowest_decay(const Model& model, const State& state, double softest);
+
 /// The mode of least stiffness where the state is unstable or neutral along it; nothing where it is stable. `reference_force` [N]: of the
 /// statics (solver/norms.hpp); neutral = 1e-6 reference_force/L^2 with the longest line L.
 std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force);

@@ -79,9 +79,10 @@ bool StaticSystem::solve(double floor) {
   bool exact = floor == 0.0 && residual_ <= exact_below_ * reference_force_ && least_tension() < -10.0 * least_kept_;
   const bool definite = !exact || !keep_definite_ || negative_pivots_here() == 0;
   exact = exact && definite;
-  TangentPanels panels = assembler_.tangent_panels(state_, static_weights, {floor, !exact, floor > 0.0 || !definite}, r_, tangent_, rhs_);
-  assert(symmetry_ == static_symmetry(model_, state_));  // only positions change
-  panels.declare(symmetry_);
+  TangentPanels panels = assembler_.tangent_panels(state_, {1.0, 0.0, resistance_}, {floor, !exact, floor > 0.0 || !definite}, r_, tangent_, rhs_);
+  const Symmetry symmetry = resistance_ == 0.0 ? symmetry_ : Symmetry::unknown;  // masses in water resist without one
+  assert(resistance_ != 0.0 || symmetry == static_symmetry(model_, state_));     // else only positions change
+  panels.declare(symmetry);
   factor_report_ = solve_with(panels);
   assembler_.project(r_);
   if (factor_report_.status != FactorStatus::ok) return false;
@@ -117,6 +118,19 @@ void StaticSystem::carry(bool moving) {
 
 void StaticSystem::advance(double factor) {
   for (std::size_t i = 0; i < d_.size(); ++i) state_.q[i] += factor * d_[i];
+  if (resistance_ == 0.0) return;
+  for (std::size_t i = 0; i < d_.size(); ++i) state_.a[i] += resistance_ * factor * d_[i];
+}
+
+void StaticSystem::resist(double c) {
+  resistance_ = c;
+  start_ = state_.q;
+  std::fill(state_.a.begin(), state_.a.end(), 0.0);
+}
+
+void StaticSystem::go_back() {
+  state_.q = start_;
+  std::fill(state_.a.begin(), state_.a.end(), 0.0);
 }
 
 bool free_of_compression(const Model& model, const State& state, double roundoff) {
@@ -146,6 +160,15 @@ Model elastic_part(const Model& model) {
   }
   if (elastic.seabed) elastic.seabed->friction_tangent = FrictionTangent::frozen;
   return elastic;
+}
+
+Model with_unit_mass(const Model& model) {
+  Model massive = model;
+  std::fill(massive.element.mass.begin(), massive.element.mass.end(), 1.0);
+  std::fill(massive.element.added_normal.begin(), massive.element.added_normal.end(), 0.0);
+  std::fill(massive.element.added_tangential.begin(), massive.element.added_tangential.end(), 0.0);
+  for (Body& body : massive.bodies) body.mass = body.added_mass = 0.0;
+  return massive;
 }
 
 int negative_pivots_of_elastic_tangent(const Model& model, const State& state) {

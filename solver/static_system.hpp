@@ -7,11 +7,11 @@
 
 #include "assembly/assembler.hpp"
 #include "solver/bordered_solver.hpp"
-#include "solver/newton.hpp"
+#include "solver/creep.hpp"
 
 namespace hawser {
 
-class StaticSystem : public NewtonSystem {
+class StaticSystem : public CreepingSystem {
  public:
   /// tolerance: relative to the reference force; 0: automatic. Everything referred to must outlive the system.
   /// exact_below: of the reference force; while the residual is larger, compressed points too keep their least tension in the
@@ -28,6 +28,9 @@ class StaticSystem : public NewtonSystem {
   double work() const override;
   void carry(bool moving) override;
   void advance(double factor) override;
+  /// The resistance is inertia, a = c (q - q_n): M is the mass matrix of the model (with_unit_mass).
+  void resist(double c) override;
+  void go_back() override;
 
   /// Takes the exact matrix only where it has no negative pivot: then every increment leads downhill.
   void keep_definite(bool keep) { keep_definite_ = keep; }
@@ -49,7 +52,8 @@ class StaticSystem : public NewtonSystem {
   double exact_below_;
   Tangent tangent_;
   Symmetry symmetry_;
-  std::vector<double> r_, rhs_, d_, carried_;
+  std::vector<double> r_, rhs_, d_, carried_, start_;               // start_: q_n
+  double resistance_ = 0.0;                                         // c, N/m^2
   double residual_ = 0.0, reference_force_ = 0.0, roundoff_ = 0.0;  // N
   double least_kept_ = 0.0;                                         // N, largest Model::minimum_tension
   bool modified_ = false, keep_definite_ = false;
@@ -68,6 +72,9 @@ int negative_pivots_of_elastic_tangent(const Model& model, const State& state);
 
 /// The model without those loads.
 Model elastic_part(const Model& model);
+
+/// The model with a mass of 1 kg a metre of line and no other; statics does not know the difference.
+Model with_unit_mass(const Model& model);
 
 /// Least strain tension [N] over all lines and its place.
 struct LeastTension {

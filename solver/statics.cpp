@@ -9,6 +9,7 @@
 
 #include "assembly/observables.hpp"
 #include "solver/relaxation.hpp"
+#include "solver/stability.hpp"
 #include "solver/static_continuation.hpp"
 #include "solver/static_failure.hpp"
 #include "solver/static_parts.hpp"
@@ -33,7 +34,11 @@ constexpr double way_tolerance = 1e-7;     // of the models on the way of a cont
 constexpr double way_increment = 1e-5;     // of the length
 constexpr double relaxation_floor = 1e-2;  // of T_f
 constexpr int relaxation_steps = 1000;
-constexpr int rounds_apart = 2;  // of lines solved one by one
+constexpr int creep_iterations = 2000;
+constexpr double creep_enough = 10.0;       // tolerances
+constexpr double creep_resistance = 100.0;  // of load/length^2: the load moves a line by a hundredth of its length in the first step
+constexpr double neutral_share = 1e-6;      // of reference force/length^2: solver/stability.hpp
+constexpr int rounds_apart = 2;             // of lines solved one by one
 
 double longest_line(const Model& model) {
   double longest = 0.0;
@@ -96,7 +101,9 @@ class StaticSolver {
     if (by_continuation(start)) return true;
     if (!model_.hubs.empty() && by_parts(start)) return true;
     if (!hangs && accepted("tension-floored Newton from the catenary", start, floored())) return true;
-    if (by_relaxation(start)) return true;
+    if (by_relaxation(start) || stable_with_all_loads()) return true;
+    if (by_creep("where that left it", State(left_), creep_iterations / 2) || by_creep("the catenary", start, creep_iterations)) return true;
+    if (stable_with_all_loads()) return true;
     if (options_.tolerance > 0.0) return false;
     tolerance_ = loose_tolerance;
     increment_tolerance_ = loose_increment;
@@ -205,6 +212,44 @@ class StaticSolver {
     return comes_to_rest(assembler_, relaxation_steps, false) && report_.stable;
   }
 
+  /// Sinks to rest (creep.hpp); then Newton.
+  bool by_creep(const std::string& from, const State& start, int iterations) {
+    if (exhausted() || start.q.empty()) return false;
+    state_ = start;
+    const Model massive = with_unit_mass(model_);
+    const Assembler assembler(massive, std::max(1, options_.threads));
+    StaticSystem system(assembler, *linear_, tolerance_, HUGE_VAL, state_);
+    CreepOptions motion;
+    motion.length = longest_line(model_);
+    motion.resistance = creep_resistance * load_ / (motion.length * motion.length);
+    motion.enough = creep_enough;
+    motion.max_iterations = std::min(options_.max_iterations - report_.iterations, iterations);
+    const NewtonReport result = creep(system, motion);
+    report_.iterations += result.factorizations;
+    report(fmt::format("creep from {}: {} after {} factorizations, residual {:.2g} N", from, result.converged() ? "at rest" : "in motion",
+                       result.factorizations, result.residual));
+    return converges(assembler_, "Newton from where it came to rest", unfloored()) && report_.stable;
+  }
+
+  /// The best equilibrium found is unstable without the loads that have no potential; with them it may well be stable (stability.hpp).
+  bool stable_with_all_loads() {
+    if (!best_.report.converged || best_.report.negative_pivots == 0 || !unsymmetric() || find_knot(model_, best_.state)) return false;
+    const double reference = best_.report.reference_force, neutral = neutral_share * reference / std::pow(longest_line(model_), 2);
+    const std::optional<StabilityMode> mode = softest_mode(model_, best_.state, reference);
+    const std::optional<double> slowest = slowest_decay(model_, best_.state, mode ? mode->stiffness : neutral);
+    if (!slowest || *slowest <= neutral) return false;
+    const StaticReport all = report_;
+    state_ = best_.state;
+    report_ = best_.report;
+    report_.stages = all.stages;
+    report_.iterations = all.iterations;
+    report_.modified_newton = all.modified_newton;
+    report_.stable = true;
+    report_.slowest_decay = slowest;
+    report(fmt::format("{}: stable with all loads, though not without drag and friction; slowest decay {:.2g} N/m2", best_.failure.stage, *slowest));
+    return true;
+  }
+
   /// Set in motion where it is until it comes to rest, then Newton; true at an equilibrium.
   bool comes_to_rest(const Assembler& assembler, int steps, bool on_the_way) {
     if (exhausted()) return false;
@@ -219,6 +264,7 @@ class StaticSolver {
       report(fmt::format("dynamic relaxation: {} after {} steps, residual {:.2g} N", result.converged() ? "at rest" : "in motion",
                          result.factorizations, result.residual));
     const State left = state_;
+    if (!on_the_way) left_ = state_;
     if (converges(assembler, "Newton from where it was left", {0.0, false, on_the_way})) return true;
     state_ = left;
     return converges(assembler, "guarded Newton from where it was left", {guard_floor * first_floor(), true, on_the_way, 100});
@@ -298,6 +344,7 @@ class StaticSolver {
   State& state_;
   StaticReport& report_;
   std::unique_ptr<LinearSolver> linear_;
+  State left_;   // by the relaxation
   double load_;  // N, of the line with the largest one
   bool limp_;    // some element has no bending stiffness
   double tolerance_, increment_tolerance_ = NewtonOptions{}.increment_tolerance;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct StaticOptions {
   StaticStart start = StaticStart::catenary;
   LinearSolverKind linear_solver = LinearSolverKind::automatic;
   double tolerance = 0.0;     // relative residual (theory 6.1); 0: automatic
-  int max_iterations = 3000;  // factorizations, over all stages
+  int max_iterations = 7000;  // factorizations, over all stages
   int threads = 1;
   std::function<void(const std::string&)> log;  // one line per stage; may be empty
 };
@@ -43,7 +44,8 @@ struct StaticReport {
   double residual = 0.0;                                                     // scaled, relative to the reference force (theory 6.1)
   double residual_force = 0.0, reference_force = 0.0, roundoff_floor = 0.0;  // N
   bool stable = false;
-  int negative_pivots = 0;  // of the elastic tangent (drag and applied moments left out); 0 where every point is in tension
+  int negative_pivots = 0;                   // of the elastic tangent (drag and applied moments left out); 0 where every point is in tension
+  std::optional<double> slowest_decay = {};  // N/m^2, where negative_pivots > 0 and it is stable with all loads (stability.hpp)
   std::string linear_solver;
   bool modified_newton = false;     // the symmetric part was factorized
   std::vector<std::string> stages;  // what was tried, in order

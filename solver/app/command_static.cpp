@@ -89,7 +89,7 @@ StaticSolution solve_requested_static(const Request& request, const Scene& scene
   solution.report = kinsol ? solve_static_kinsol(assembler, options, solution.state) : solve_static(assembler, options, solution.state);
   solution.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   // The state of a failure is an equilibrium only where instability is what was wrong with it.
-  if (solution.report.converged || solution.report.negative_pivots > 0)
+  if (!solution.report.slowest_decay && (solution.report.converged || solution.report.negative_pivots > 0))
     solution.mode = softest_mode(model, solution.state, solution.report.reference_force);
   solution.error_estimates.assign(model.lines.size(), std::numeric_limits<double>::quiet_NaN());
   if (solution.report.converged) {

@@ -7,6 +7,9 @@
 #include <numbers>
 
 #include "assembly/observables.hpp"
+#include "bench/trial_networks.hpp"
+#include "bench/trial_scenes.hpp"
+#include "bench/trial_spectrum.hpp"
 #include "solver/static_system.hpp"
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/static_solution.hpp"
@@ -73,6 +76,35 @@ TEST(SoftestMode, AHangingCatenaryHasNone) {
   const StaticSolution solution(
       SceneBuilder().type(u40()).fixed("a", {0, 0, -500}).fixed("b", {600, 0, 0}).line("a", "b").section("U40", 900.0, 30).scene);
   EXPECT_FALSE(softest_mode(*solution.model, solution.state, solution.report.reference_force));
+}
+
+TEST(SlowestDecay, OfATautStringAndOfAColumnIsThatOfTheirHalfWave) {
+  // kappa = T (pi/L)^2 of a string of tension T; of a column (pi/L)^2 ((pi/L)^2 EI - P), as above. Between them lies the strain, 1e-3 and 2e-5, and
+  // what the mesh leaves, (pi/16)^4/720.
+  const double strain = 1e-3, EA = 1.0e6, wave = std::pow(pi / Straight::L, 2);
+  const Straight string(EA, 0.0, 1.0 + strain, 16);
+  const std::optional<double> taut = slowest_decay(string.model, string.state, 1.0);
+  ASSERT_TRUE(taut);
+  EXPECT_NEAR(*taut, wave * EA * strain, 2.0 * strain * wave * EA * strain);
+  const double EI = 100.0, stiff = 1.0e7, euler = wave * EI, P = 2.0 * euler;
+  const Straight column(stiff, EI, 1.0 - P / stiff, 16);
+  const std::optional<double> unstable = slowest_decay(column.model, column.state, wave * euler);
+  ASSERT_TRUE(unstable);
+  EXPECT_NEAR(*unstable, -wave * euler, 1e-4 * wave * euler);
+}
+
+TEST(SlowestDecay, AgreesWithTheWholeSpectrumWhereDragAndFrictionHaveNoPotential) {
+  // Of the trial's draws a span in a current, a pipe on a bed with friction in a current, and legs in a current. Differences of the residual over
+  // 1e-7 m leave the dense matrix 1e-4 of its small eigenvalues.
+  for (const bench::Trial& trial : {bench::draw_trial(1, 7), bench::draw_trial(3, 4836), bench::draw_network(1, 2)}) {
+    const Model model = build_model(trial.scene);
+    State state;
+    ASSERT_TRUE(solve_static(Assembler(model), {}, state).converged) << trial.kind;
+    const double dense = bench::least_decay(model, state);
+    const std::optional<double> slowest = slowest_decay(model, state, dense);
+    ASSERT_TRUE(slowest) << trial.kind;
+    EXPECT_NEAR(*slowest, dense, 1e-3 * std::abs(dense)) << trial.kind;
+  }
 }
 
 }  // namespace
