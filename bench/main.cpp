@@ -6,8 +6,9 @@
 #include <cstdlib>
 
 int main(int argc, char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") == nullptr || std::getenv("OPENBLAS_NUM_THREADS") == nullptr) {
+  if (std::getenv("OMP_WAIT_POLICY") == nullptr || std::getenv("GOMP_SPINCOUNT") == nullptr || std::getenv("OPENBLAS_NUM_THREADS") == nullptr) {
     setenv("OMP_WAIT_POLICY", "passive", 0);
+    setenv("GOMP_SPINCOUNT", "20000", 0);
     setenv("OPENBLAS_NUM_THREADS", "1", 0);
     execv("/proc/self/exe", argv);  // returns only where this is impossible: then we run as we are
   }

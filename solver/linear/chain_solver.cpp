@@ -22,7 +22,7 @@ namespace {
 
 constexpr double growth_limit = 100.0;  // 1e-14 / eps
 
-// Measured (bench/README.md, threads): two threads gain 1.5 in factorizing 10^4 nodes, but nothing in a solve of as many, which takes 0.3 ms.
+// Measured (bench/README.md, threads): two threads gain 1.5 in factorizing 10^4 nodes, but nothing in a solve of as many, which takes 0.2 ms.
 constexpr int nodes_to_share_factorization = 4000, nodes_to_share_panels = 2000, nodes_to_share_solve = 40000;
 
 class ChainSolver final : public LinearSolver {
