@@ -1,5 +1,5 @@
-// Google Benchmark's main, in the environment that the program hawser gives itself (solver/app/main.cpp): idle threads of OpenMP sleep,
-// OpenBLAS keeps to one. Both libraries read it while they are loaded, so it is set and the program started again.
+// Google Benchmark's main, in the environment that the program hawser gives itself (solver/app/main.cpp): idle threads of OpenMP soon
+// sleep, OpenBLAS keeps to one. Both libraries read it while they are loaded, so it is set and the program started again.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
