@@ -50,27 +50,6 @@ TEST(SymmetricChains, AreSolvedAsAccuratelyAsTheContractSays) {
   EXPECT_GE(eliminated, 30);
 }
 
-TEST(SymmetricChains, CountTheNegativeEigenvalues) {
-  const std::vector<Shape> counted = {{6, 15}, {7, 10}, {3, 20}};
-  int indefinite = 0;
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    BlockTridiagonal a = symmetric_matrix(Kind::positive_definite, counted, seed);
-    for (const Chain& c : a.chains())
-      for (int i = 0; i < c.nodes; ++i)
-        for (int k = 0; k < c.block; ++k) a.D(c, i)[k * (c.block + 1)] -= 0.05 * seed;
-    const auto solver = make_linear_solver(LinearSolverKind::chain);
-    solver->analyze(a);
-    const FactorReport report = solver->factorize(a);
-    ASSERT_EQ(report.status, FactorStatus::ok);
-    if (report.fell_back) continue;
-    const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(test::dense(a), Eigen::EigenvaluesOnly).eigenvalues();
-    EXPECT_EQ(report.negative_pivots, (eigenvalues.array() < 0.0).count());
-    EXPECT_LE(error_of(*solver, a), backward_tolerance);
-    indefinite += report.negative_pivots > 0;
-  }
-  EXPECT_GT(indefinite, 0);
-}
-
 // The same bits with one thread and two, stored or made panel by panel, factors kept or not.
 TEST(SymmetricChains, GiveTheSameBitsByEveryPath) {
   const std::vector<Shape> long_ones = {{6, 20001}, {7, 9000}, {6, 2500}, {3, 300}};
