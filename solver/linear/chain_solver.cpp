@@ -5,16 +5,17 @@
 // solver, which exchanges rows. A well-posed statics or dynamics tangent never gets there.
 #include <omp.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <memory>
 
-#include "assembly/aligned.hpp"
 #include "solver/linear/backends.hpp"
 #include "solver/linear/band_solver.hpp"
 #include "solver/linear/chain_kernel.hpp"
 #include "solver/linear/chain_panels.hpp"
 #include "solver/linear/factor_reports.hpp"
+#include "solver/linear/untouched.hpp"
 
 namespace hawser {
 
@@ -35,7 +36,8 @@ class ChainSolver final : public LinearSolver {
   void analyze(const BlockTridiagonal& pattern) override {
     chains_.assign(pattern.chains().begin(), pattern.chains().end());
     for ([[maybe_unused]] const Chain& c : chains_) assert(c.block == 3 || c.block == 6 || c.block == 7);
-    factors_.resize(pattern.values().size());
+    factors_ = UntouchedVector<double>(pattern.values().size());
+    for (const Chain& c : chains_) touch_first(c);
     pivoted_.reset();
     fell_back_ = false;
   }
@@ -115,6 +117,18 @@ class ChainSolver final : public LinearSolver {
         [&](Front front) { kernel_.backward(c.block, c.nodes, form(c), factors_of(c), b, front); });
   }
 
+  /// Each thread the factors of its front.
+  void touch_first(const Chain& c) {
+    double* const first = factors_of(c);
+    double* const end = first + c.block * c.block * (3 * std::ptrdiff_t{c.nodes} - 2);
+    double* const middle = first + (end - first) / 2;
+    PivotWatch unread;
+    on_fronts(
+        c, nodes_to_share_panels, unread,
+        [&](Front front, PivotWatch&) { std::fill(front == Front::right ? middle : first, front == Front::left ? middle : end, 0.0); },
+        [](PivotWatch&) {}, nothing);
+  }
+
   static constexpr auto nothing = [](Front) {};
 
   /// Towards the middle node, there, and back. Of two threads each keeps to its front, whose numbers stay in its cache; the numbers are those of
@@ -155,7 +169,7 @@ class ChainSolver final : public LinearSolver {
   const int threads_;
   const ChainKernel& kernel_ = *chain_kernels().front();
   std::vector<Chain> chains_;
-  AlignedVector<double> factors_;
+  UntouchedVector<double> factors_;
   std::unique_ptr<BandSolver> pivoted_;
   ChainPanels panels_;
   Symmetry symmetry_ = Symmetry::unknown;
