@@ -17,6 +17,7 @@
 #include "assembly/assembler.hpp"
 #include "assembly/model.hpp"
 #include "solver/linear/linear_solver.hpp"
+#include "solver/linear/refinement.hpp"
 #include "solver/time/generalized_alpha.hpp"
 
 namespace hawser::bench {
@@ -113,19 +114,6 @@ struct MovingLine {
     return 8.0 * static_cast<double>(4 * model.unknowns + 14 * static_cast<std::size_t>(model.total_elements()) + blocks);
   }
 };
-
-/// max_i |A x - b|_i / (|A| |x| + |b|)_i: row by row (Oettli and Prager), no large row hides a small one.
-inline double backward_error(const BlockTridiagonal& matrix, std::span<const double> x, std::span<const double> b) {
-  BlockTridiagonal magnitudes = matrix;
-  std::vector<double> size_x(x.begin(), x.end()), product(b.size()), size(b.size());
-  for (double& v : magnitudes.values()) v = std::abs(v);
-  for (double& v : size_x) v = std::abs(v);
-  matrix.multiply(x, product);
-  magnitudes.multiply(size_x, size);
-  double error = 0.0;
-  for (std::size_t i = 0; i < b.size(); ++i) error = std::max(error, std::abs(product[i] - b[i]) / (size[i] + std::abs(b[i])));
-  return error;
-}
 
 /// Seconds per element of one iteration of the benchmark.
 inline benchmark::Counter per_element(double elements) {

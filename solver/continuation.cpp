@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/newton.hpp"
+
 namespace hawser {
 namespace {
 
@@ -16,7 +18,6 @@ constexpr double fold_rate = 1e-7;         // p' at a fold, of the p' along whic
 constexpr int most_fold_corrections = 12;  // points tried for one fold
 constexpr double correction_limit = 0.5;   // of the step: a corrector that goes further is on its way to another branch
 constexpr double stop_tolerance = 1e-9;    // relative to the spacing of stops: p is there already
-constexpr double rounding_margin = 20.0;   // as in solver/newton.cpp
 
 using Vector = std::vector<double>;
 

@@ -6,13 +6,12 @@
 namespace hawser {
 namespace {
 
-constexpr double solved = 0.1;            // of the residual that a step begins with
-constexpr double corrected = 0.05;        // of the first increment of a step
-constexpr double diverging = 2.0;         // increment over the one before
-constexpr int step_iterations = 10;       // of one step
-constexpr int easy = 3, hard = 5;         // of these
-constexpr double rounding_margin = 20.0;  // as in newton.cpp
-constexpr double after_failure = 4.0;     // factors of c
+constexpr double solved = 0.1;         // of the residual that a step begins with
+constexpr double corrected = 0.05;     // of the first increment of a step
+constexpr double diverging = 2.0;      // increment over the one before
+constexpr int step_iterations = 10;    // of one step
+constexpr int easy = 3, hard = 5;      // of these
+constexpr double after_failure = 4.0;  // factors of c
 constexpr double after_easy = 0.25, after_fair = 0.5;
 
 /// One step; the iterations it took, 0 where Newton failed.

@@ -12,7 +12,6 @@ constexpr double position_cap = 0.1;       // largest change of r, of L
 constexpr double floor_factor = 0.2;       // after a full step
 constexpr double floor_negligible = 1e-8;  // of its start: then the exact matrix, also where no tension is left
 constexpr double roundoff_scatter = 2.0;   // rounding was seen up to 1.9 times its floor (theory 6.1)
-constexpr double roundoff_margin = 20.0;   // a stalled residual below this many round-off floors counts as rounding
 constexpr int stalled_steps = 4;           // full steps that no longer lower the residual
 constexpr int resting_steps = 12;          // steps with the residual at rounding, whatever the increments
 constexpr double pushed_back = 0.5;        // of the push at the start of a step: then it is shortened
@@ -30,7 +29,7 @@ class Rounding {
     } else if (full_step) {
       ++stalled_;
     }
-    const bool at_rounding = residual <= roundoff_margin * roundoff;
+    const bool at_rounding = residual <= rounding_margin * roundoff;
     resting_ = at_rounding ? resting_ + 1 : 0;
     return at_rounding && ((stalled_ >= stalled_steps && small_step) || resting_ >= resting_steps);
   }
@@ -111,7 +110,7 @@ NewtonReport guarded_newton(NewtonSystem& system, const NewtonOptions& options) 
   while (report.factorizations < options.max_iterations) {
     IncrementSize size;
     if (!increment_found(system, floor, size, report)) return report;
-    const bool at_rounding = report.residual <= roundoff_margin * system.roundoff();
+    const bool at_rounding = report.residual <= rounding_margin * system.roundoff();
     const double slope = system.work(), cap = capped_step(size, options.length);
     if (!(slope < 0.0) && !at_rounding) {
       if (floor >= options.floor) return report;

@@ -43,6 +43,9 @@ class NewtonSystem {
   virtual void advance(double factor) = 0;
 };
 
+/// A residual that stands still below this many round-off floors counts as rounding.
+constexpr double rounding_margin = 20.0;
+
 struct NewtonOptions {
   double length = 1.0;                // L [m], of the step cap and of the increment criterion
   double floor = 0.0;                 // T_f at the start [N]; 0: the exact matrix from the first iteration

@@ -56,6 +56,12 @@ IncrementSize increment_size(const Model& model, std::span<const double> d) {
   return {std::sqrt(position), std::sqrt(slope), std::sqrt(larger(position, as_position))};
 }
 
+double longest_line(const Model& model) {
+  double longest = 0.0;
+  for (const Line& line : model.lines) longest = std::max(longest, line.length);
+  return longest;
+}
+
 double largest_nodal_load(const Model& model) {
   std::vector<Vec3> load(model.total_nodes(), Vec3::Zero());
   for (const Line& line : model.lines)

@@ -33,6 +33,9 @@ struct WorstNode {
 };
 WorstNode worst_node(const Model& model, std::span<const double> r);
 
+/// L [m]: the length of the longest line, what increments and stiffnesses are measured against.
+double longest_line(const Model& model);
+
 /// The largest |R_r| [N] at a support or a hub of the residual BEFORE projection: there it is the tension of the line.
 double largest_end_force(const Model& model, std::span<const double> unprojected);
 

@@ -7,12 +7,13 @@
 
 #include "assembly/assembler.hpp"
 #include "solver/bordered_solver.hpp"
+#include "solver/norms.hpp"
 #include "solver/static_system.hpp"
 
 namespace hawser {
 namespace {
 
-constexpr double neutral_share = 1e-6;  // of reference force / length^2
+constexpr double neutral_share = 1e-6;
 constexpr double bracket_width = 1e-3;  // relative
 constexpr int most_doublings = 60;      // of the first bracket
 constexpr int inverse_iterations = 12;
@@ -20,12 +21,6 @@ constexpr int krylov_least = 40, krylov_most = 300;  // vectors
 constexpr int krylov_numbers = 6'000'000;            // in all of them, where that leaves more than the least
 constexpr double krylov_breakdown = 1e-12;
 constexpr double ritz_accuracy = 1e-3;  // of an eigenvalue of (K - sigma M)^-1 M
-
-double longest_line(const Model& model) {
-  double longest = 0.0;
-  for (const Line& line : model.lines) longest = std::max(longest, line.length);
-  return longest;
-}
 
 /// The diagonal of M, over the chain unknowns; zero where a support holds.
 std::vector<double> mode_mass(const Model& model) {
@@ -143,9 +138,10 @@ class Krylov {
     std::vector<std::complex<double>> values;
     if (size_ == 0) return values;
     const Eigen::EigenSolver<Eigen::MatrixXd> eigen(H_.topLeftCorner(size_, size_));
+    const Eigen::MatrixXcd vectors = eigen.eigenvectors();
     for (Eigen::Index i = 0; i < size_; ++i) {
       const std::complex<double> theta = eigen.eigenvalues()[i];
-      const double error = H_(size_, size_ - 1) * std::abs(eigen.eigenvectors()(size_ - 1, i)) / eigen.eigenvectors().col(i).norm();
+      const double error = H_(size_, size_ - 1) * std::abs(vectors(size_ - 1, i)) / vectors.col(i).norm();
       if (error <= ritz_accuracy * std::abs(theta)) values.push_back(sigma_ + 1.0 / theta);
     }
     return values;
@@ -215,8 +211,10 @@ void normalise(const Model& model, StabilityMode& mode) {
 
 }  // namespace
 
+double neutral_stiffness(const Model& model, double reference_force) { return neutral_share * reference_force / std::pow(longest_line(model), 2); }
+
 std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force) {
-  const double neutral = neutral_share * reference_force / std::pow(longest_line(model), 2);
+  const double neutral = neutral_stiffness(model, reference_force);
   if (!(neutral > 0.0)) return std::nullopt;
   Pencil pencil(model, state);
   if (pencil.below(neutral) == 0) return std::nullopt;

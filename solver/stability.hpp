@@ -33,8 +33,10 @@ struct StabilityMode {
 /// Inner unknowns of joints follow at once, without a mass of their own. Costs up to 300 solutions for each sigma.
 std::optional<double> slowest_decay(const Model& model, const State& state, double softest);
 
-/// The mode of least stiffness where the state is unstable or neutral along it; nothing where it is stable. `reference_force` [N]: of the
-/// statics (solver/norms.hpp); neutral = 1e-6 reference_force/L^2 with the longest line L.
+/// Below it [N/m^2] a mode is neutral: 1e-6 reference_force/L^2 with the longest line L. `reference_force` [N]: of the statics (solver/norms.hpp).
+double neutral_stiffness(const Model& model, double reference_force);
+
+/// The mode of least stiffness where the state is unstable or neutral along it; nothing where it is stable.
 std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force);
 
 }  // namespace hawser

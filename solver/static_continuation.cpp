@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/norms.hpp"
+
 namespace hawser {
 namespace {
 
@@ -14,12 +16,6 @@ constexpr double first_stiffness = 100.0;  // EA_a over W
 constexpr double least_stiffness = 30.0;   // EA over EI/l^2: a softer one would rather stretch than bend
 constexpr double first_ratio = 0.1;
 constexpr int most_failures = 8;
-
-double longest_line(const Model& model) {
-  double longest = 0.0;
-  for (const Line& line : model.lines) longest = std::max(longest, line.length);
-  return longest;
-}
 
 }  // namespace
 

@@ -82,9 +82,10 @@ bool StaticSystem::solve(double floor) {
   TangentPanels panels = assembler_.tangent_panels(state_, {1.0, 0.0, resistance_}, {floor, !exact, floor > 0.0 || !definite}, r_, tangent_, rhs_);
   // Proved for bodies at rest (assembly/symmetry.hpp). Where a line is compressed LU is taken: rounding that keeps to the symmetry keeps a straight
   // line from buckling.
-  const Symmetry symmetry = resistance_ == 0.0 && least_tension() >= 0.0 ? symmetry_ : Symmetry::unknown;
-  assert(symmetry == Symmetry::unknown || symmetry == static_symmetry(model_, state_));  // only positions change
-  panels.declare(symmetry);
+  if (symmetry_ == Symmetry::symmetric && resistance_ == 0.0 && least_tension() >= 0.0) {
+    assert(static_symmetry(model_, state_) == Symmetry::symmetric);  // only positions change
+    panels.declare(Symmetry::symmetric);
+  }
   factor_report_ = solve_with(panels);
   assembler_.project(r_);
   if (factor_report_.status != FactorStatus::ok) return false;

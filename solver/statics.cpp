@@ -37,14 +37,7 @@ constexpr int relaxation_steps = 1000;
 constexpr int creep_iterations = 2000;
 constexpr double creep_enough = 10.0;       // tolerances
 constexpr double creep_resistance = 100.0;  // of load/length^2: the load moves a line by a hundredth of its length in the first step
-constexpr double neutral_share = 1e-6;      // of reference force/length^2: solver/stability.hpp
 constexpr int rounds_apart = 2;             // of lines solved one by one
-
-double longest_line(const Model& model) {
-  double longest = 0.0;
-  for (const Line& line : model.lines) longest = std::max(longest, line.length);
-  return longest;
-}
 
 /// The scale of forces: the largest load of a line, or where nothing loads them what buckles one between clamps, (2 pi/L)^2 EI.
 double largest_load(const Model& model) {
@@ -233,8 +226,10 @@ class StaticSolver {
 
   /// The best equilibrium found is unstable without the loads that have no potential; with them it may well be stable (stability.hpp).
   bool stable_with_all_loads() {
-    if (!best_.report.converged || best_.report.negative_pivots == 0 || !unsymmetric() || find_knot(model_, best_.state)) return false;
-    const double reference = best_.report.reference_force, neutral = neutral_share * reference / std::pow(longest_line(model_), 2);
+    if (best_.looked_at || !best_.report.converged || best_.report.negative_pivots == 0 || !unsymmetric()) return false;
+    best_.looked_at = true;
+    if (find_knot(model_, best_.state)) return false;
+    const double reference = best_.report.reference_force, neutral = neutral_stiffness(model_, reference);
     const std::optional<StabilityMode> mode = softest_mode(model_, best_.state, reference);
     const std::optional<double> slowest = slowest_decay(model_, best_.state, mode ? mode->stiffness : neutral);
     if (!slowest || *slowest <= neutral) return false;
@@ -352,6 +347,7 @@ class StaticSolver {
     State state;
     StaticReport report;
     Failure failure;
+    bool looked_at = false;  // by stable_with_all_loads
   } best_;
 };
 

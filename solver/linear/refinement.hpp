@@ -17,6 +17,9 @@
 
 namespace hawser {
 
+/// omega(x), see above; every row counts for itself, no large one hides a small one.
+double backward_error(const BlockTridiagonal& matrix, std::span<const double> x, std::span<const double> b);
+
 class Refinement {
  public:
   /// Takes the memory that a step needs.
@@ -30,9 +33,6 @@ class Refinement {
   BackwardErrors improve(const BlockTridiagonal& matrix, LinearSolver& factorized, std::span<const double> b, std::span<double> x);
 
  private:
-  /// omega(x); leaves b - A x in residual_.
-  double look(const BlockTridiagonal& matrix, std::span<const double> b, std::span<const double> x);
-
   std::vector<double> residual_, size_, improved_;
 };
 

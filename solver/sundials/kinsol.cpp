@@ -22,9 +22,8 @@ namespace {
 constexpr double automatic_tolerance = 1e-10;  // as statics
 constexpr double largest_step = 0.1;           // of the longest line, mean of the nodes
 constexpr double least_scaled_step = 1e-14;
-constexpr double rounding_margin = 20.0;  // as in solver/newton.cpp
-constexpr int most_iterations = 60;       // of one round
-constexpr int most_rounds = 3;            // of one stage
+constexpr int most_iterations = 60;  // of one round
+constexpr int most_rounds = 3;       // of one stage
 
 /// What KINSOL's callbacks work on: the equations at the state, its tangent and its factors.
 struct Problem {

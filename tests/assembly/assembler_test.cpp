@@ -10,6 +10,7 @@
 #include "assembly/observables.hpp"
 #include "assembly/seabed.hpp"
 #include "tests/support/scene_samples.hpp"
+#include "tests/support/shaken_chords.hpp"
 
 namespace hawser {
 namespace {
@@ -18,18 +19,7 @@ namespace {
 State random_state(const Model& model, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
-  State s = model.make_state();
-  for (std::size_t l = 0; l < model.lines.size(); ++l) {
-    const Line& line = model.lines[l];
-    const Vec3 a = model.points[line.from].position, b = model.points[line.to].position, t = (b - a) / line.length;
-    for (int i = 0; i < line.nodes; ++i) {
-      const std::size_t d = model.dof(static_cast<int>(l), i);
-      for (int c = 0; c < 3; ++c) {
-        s.q[d + c] = a[c] + t[c] * line.s[i] + 0.02 * u(random);
-        if (line.family != Family::bar) s.q[d + 3 + c] = 1.02 * t[c] + 0.1 * u(random);
-      }
-    }
-  }
+  State s = test::shaken_chords(model, 1.02, random);
   for (double& v : s.v) v = u(random);
   for (double& a : s.a) a = u(random);
   model.reset_joints(s);

@@ -14,6 +14,7 @@
 #include "assembly/assembler.hpp"
 #include "tests/support/network_scenes.hpp"
 #include "tests/support/scene_samples.hpp"
+#include "tests/support/shaken_chords.hpp"
 
 namespace hawser {
 namespace {
@@ -22,20 +23,9 @@ constexpr double rounding = 64 * 2.2e-16, broken = 1e-9;
 
 /// Between the supports and shaken, at rest.
 State resting_state(const Model& model) {
-  State state = model.make_state();
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
-  for (std::size_t l = 0; l < model.lines.size(); ++l) {
-    const Line& line = model.lines[l];
-    const Vec3 a = model.points[line.from].position, b = model.points[line.to].position, t = (b - a) / line.length;
-    for (int i = 0; i < line.nodes; ++i) {
-      const std::size_t d = model.dof(static_cast<int>(l), i);
-      for (int c = 0; c < 3; ++c) {
-        state.q[d + c] = a[c] + t[c] * line.s[i] + 0.02 * u(random);
-        if (line.family != Family::bar) state.q[d + 3 + c] = t[c] + 0.1 * u(random);
-      }
-    }
-  }
+  State state = test::shaken_chords(model, 1.0, random);
   model.reset_joints(state);
   for (std::size_t i = model.dofs; i < model.unknowns; ++i) state.q[i] += 0.05 * u(random);
   return state;
