@@ -7,6 +7,7 @@
 #include "assembly/element.hpp"
 #include "assembly/joints.hpp"
 #include "assembly/seabed.hpp"
+#include "assembly/seabed_bodies.hpp"
 #include "assembly/supports.hpp"
 #include "assembly/sweep.hpp"
 
@@ -177,6 +178,7 @@ struct Assembler::Impl {
     add_spread_loads(model, state, r);
     add_bodies(model, state, r, weights, blocks);
     add_seabed(model, state, r, weights, f.gauss_newton, blocks);
+    add_seabed_to_bodies(model, state, r, weights, f.gauss_newton, blocks);
   }
 
   bool has_beside() const { return !(model.joints.empty() && model.bodies.empty() && model.spread_loads.empty()) || model.seabed; }
@@ -208,6 +210,7 @@ void Assembler::residual(const State& state, std::span<double> r) const {
   add_spread_loads(model_, state, r);
   add_bodies(model_, state, r);
   add_seabed(model_, state, r);
+  add_seabed_to_bodies(model_, state, r);
 }
 
 void Assembler::tangent(const State& state, const TangentWeights& weights, const TangentFloor& floor, std::span<double> r, Tangent& tangent) const {

@@ -85,6 +85,7 @@ class ModelBuilder {
     for (const LineSpec& line : scene_.lines) add_line(line);
     number_unknowns(model_);
     model_.seabed = make_seabed(scene_, model_);
+    put_bodies_on_seabed(scene_, model_);
     return std::move(model_);
   }
 
@@ -191,7 +192,7 @@ class ModelBuilder {
   void add_body(const BodySpec& body, const TimeForce& moment, int line, int node) {
     const double weight = body.wet_weight.value_or((body.mass - model_.water_density * body.volume.value_or(0.0)) * model_.gravity);
     model_.bodies.push_back({line, node, body.mass, body.added_mass, weight, 0.5 * model_.water_density * body.drag_area, TimeFunction(body.force),
-                             TimeFunction(moment)});
+                             TimeFunction(moment), 0.0, std::nullopt});
   }
 
   void add_loads(const LineSpec& spec, const LineMesh& mesh, int line, int first_element) {

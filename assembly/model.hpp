@@ -43,6 +43,8 @@ struct Body {
   double drag = 0.0;                    // 1/2 rho Cd A [kg/m]
   TimeFunction force;                   // N
   TimeFunction moment;                  // N m, on the tangent of the node (beam)
+  double bed_length = 0.0;              // m, of line that the seabed takes it for; 0: it does not touch (seabed_bodies.hpp)
+  std::optional<Vec3> lay;              // m, where it was laid on a seabed with friction
 };
 
 /// A force spread evenly over part of one element: xi in [xi0, xi1], share = its part of the whole force.

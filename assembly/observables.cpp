@@ -7,6 +7,7 @@
 
 #include "assembly/element.hpp"
 #include "assembly/seabed.hpp"
+#include "assembly/seabed_bodies.hpp"
 #include "assembly/sweep.hpp"
 
 namespace hawser {
@@ -262,6 +263,10 @@ std::vector<PointResult> observe_points(const Model& model, const State& state) 
       out[point].velocity = Eigen::Map<const Vec3>(&state.v[d]);
     }
   }
+  for (const Body& body : model.bodies) {
+    const Line& l = model.lines[body.line];
+    if (body.node == 0 || body.node == l.elements) out[body.node == 0 ? l.from : l.to].bed += seabed_force(model, state, body);
+  }
   return out;
 }
 
@@ -303,6 +308,7 @@ Energies observe_energies(const Model& model, const State& state) {
     const Eigen::Map<const Vec3> r(&state.q[d]), v(&state.v[d]);
     sum.kinetic += 0.5 * b.mass * v.squaredNorm();
     sum.potential += b.wet_weight * r[2];
+    sum.bed += seabed_energy(model, state, b);
     sum.momentum += b.mass * v;
     sum.angular_momentum += b.mass * Vec3(r).cross(Vec3(v));
   }

@@ -45,6 +45,7 @@ struct PointResult {
   Vec3 position = Vec3::Zero();  // m
   Vec3 velocity = Vec3::Zero();  // m/s
   Vec3 force = Vec3::Zero();     // N, the sum of what the lines exert on it
+  Vec3 bed = Vec3::Zero();       // N, of the seabed on the body of a free point
 };
 
 std::vector<PointResult> observe_points(const Model& model, const State& state);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "assembly/bracketed_root.hpp"
+#include "assembly/seabed_bodies.hpp"
 
 namespace hawser {
 namespace {
@@ -392,6 +393,7 @@ SeabedContact observe_seabed(const Model& model, const State& state, int line) {
     }
   }
   if (on_bed_to > 0.0 && on_bed_to < l.length) out.touchdown.push_back(on_bed_to);
+  out.force += lift_of_bodies(model, state, line);
   return out;
 }
 

@@ -41,7 +41,7 @@ struct SeabedContact {
   std::vector<double> touchdown;                                  // m, arc lengths where the line meets or leaves the bed
   double length = 0.0;                                            // m, unstretched, in contact
   double largest_penetration = 0.0, largest_penetration_s = 0.0;  // m
-  double force = 0.0;                                             // N, vertical, of the bed on the line
+  double force = 0.0;                                             // N, vertical, of the bed on the line and on bodies between its ends
 
   /// For a column of numbers: the first touchdown, not a number where there is none.
   double first_touchdown() const { return touchdown.empty() ? std::numeric_limits<double>::quiet_NaN() : touchdown.front(); }

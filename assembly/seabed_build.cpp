@@ -13,6 +13,7 @@ namespace {
 
 constexpr double longest_way = 1.5;   // of an element in plan, of its length
 constexpr double resolution = 1e-15;  // of its length
+constexpr double least_sink = 0.1;    // of the diameter of a line (theory 5.4)
 
 /// Where a line was laid from one end: in plan towards the other end, along an arc where it is longer than its way there and up.
 class Lay {
@@ -73,7 +74,50 @@ void lay_out(const Line& line, const Lay& lay, Seabed& bed) {
   }
 }
 
+/// The ends or nodes of lines that a body belongs to.
+std::vector<Support> places_of(const Model& model, const Body& body) {
+  for (const Hub& hub : model.hubs)
+    if (hub.ends.front().line == body.line && hub.ends.front().node == body.node) return hub.ends;
+  return {Support{body.line, body.node, -1}};
+}
+
+/// What presses a unit length of the line around a body into the bed, or would where the line weighs nothing: max(w, N(d/10)).
+double pressure_around(const Scene& scene, const Model& model, const std::vector<Support>& places) {
+  double weight = 0.0, diameter = 0.0;
+  for (const Support& place : places) {
+    const LineMesh mesh = mesh_line(scene.lines[place.line], scene.line_types);
+    const Line& line = model.lines[place.line];
+    for (int i = std::max(0, place.node - 1); i <= std::min(place.node, line.elements - 1); ++i) {
+      weight = std::max(weight, model.element.weight[line.first_element + i]);
+      diameter = std::max(diameter, mesh.type[i]->diameter);
+    }
+  }
+  return std::max(weight, contact_pressure(model.seabed->law, least_sink * diameter));
+}
+
+std::optional<Vec3> laid_place(const Model& model, const std::vector<Support>& places) {
+  std::optional<Vec3> lay;
+  for (const Support& place : places) {
+    if (model.seabed->laid[place.line] == Laid::nowhere) continue;
+    if (lay) return std::nullopt;
+    lay = model.seabed->lay[model.lines[place.line].first_node + place.node];
+  }
+  return lay;
+}
+
 }  // namespace
+
+void put_bodies_on_seabed(const Scene& scene, Model& model) {
+  if (!model.seabed) return;
+  for (Body& body : model.bodies) {
+    const double load = body.wet_weight + std::max(0.0, -body.force(0.0).z());
+    if (load <= 0.0) continue;
+    const std::vector<Support> places = places_of(model, body);
+    const double pressure = pressure_around(scene, model, places);
+    if (pressure > 0.0) body.bed_length = load / pressure;
+    if (model.seabed->law.rubs()) body.lay = laid_place(model, places);
+  }
+}
 
 std::optional<SeabedSurface> seabed_surface(const Environment& environment) {
   if (environment.seabed.bathymetry) return SeabedSurface(*environment.seabed.bathymetry);

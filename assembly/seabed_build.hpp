@@ -10,6 +10,9 @@ namespace hawser {
 /// Absent where the scene has no seabed. Lines, points and elements of the model must stand.
 std::optional<Seabed> make_seabed(const Scene& scene, const Model& model);
 
+/// How much of the bed every body feels, and from where its friction counts (seabed_bodies.hpp).
+void put_bodies_on_seabed(const Scene& scene, Model& model);
+
 /// The bed of an environment; absent where it has none.
 std::optional<SeabedSurface> seabed_surface(const Environment& environment);
 

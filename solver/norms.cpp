@@ -108,6 +108,10 @@ double roundoff_force(const Model& model, const State& state) {
       worst = std::max(worst, model.element.EA[e] * std::max(1.0, r / l) + 12.0 * model.element.EI[e] * r / (l * l * l) + (k + friction) * l * r);
     }
   }
+  for (const Body& body : model.bodies) {
+    const double friction = body.lay ? friction_stiffness(model.seabed->law) * std::abs(body.wet_weight) : 0.0;
+    worst = std::max(worst, (k * body.bed_length + friction) * ConstVec3(&state.q[model.dof(body.line, body.node)]).norm());
+  }
   return 2.0 * std::numeric_limits<double>::epsilon() * worst;
 }
 

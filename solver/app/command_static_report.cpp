@@ -105,7 +105,7 @@ std::string stiffness_text(const Model& model, const StaticSolution& solution) {
   return rows.size() > 1 ? '\n' + table(rows) : "";
 }
 
-/// What rests on the bed, a row a line that touches it, and a blank line.
+/// What rests on the bed, a row for every line that touches it and every point whose body does, and a blank line.
 std::string seabed_text(const Model& model, const State& state) {
   std::vector<std::vector<std::string>> rows{{"on the seabed", "touchdown at s [m]", "length", "force", "deepest"}};
   for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) {
@@ -116,6 +116,9 @@ std::string seabed_text(const Model& model, const State& state) {
     rows.push_back({model.lines[static_cast<std::size_t>(i)].name, places.empty() ? "none" : places, fmt::format("{:.6g} m", c.length),
                     with_prefix(c.force, "N"), fmt::format("{:.2g} m at s = {:.6g} m", c.largest_penetration, c.largest_penetration_s)});
   }
+  const std::vector<PointResult> points = observe_points(model, state);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].bed.z() > 0.0) rows.push_back({model.points[i].name, "", "", with_prefix(points[i].bed.z(), "N"), ""});
   return rows.size() > 1 ? table(rows) + '\n' : "";
 }
 
@@ -127,6 +130,7 @@ Json points_document(const Model& model, std::span<const PointResult> points) {
   Json json = Json::object();
   for (std::size_t i = 0; i < points.size(); ++i) {
     json[model.points[i].name] = {{"position", vector_document(points[i].position)}, {"force", vector_document(points[i].force)}};
+    if (model.seabed && model.points[i].free) json[model.points[i].name]["seabed_force"] = vector_document(points[i].bed);
   }
   return json;
 }

@@ -131,6 +131,22 @@ TEST_P(BorderOf, ANetworkIsTheDerivativeOfItsProjectedResidual) {
   }
 }
 
+TEST_P(BorderOf, ANetworkWhoseHubsLieOnTheBedIsTheDerivativeOfItsProjectedResidual) {
+  Scene scene = network_with_ring(3, GetParam());
+  scene.environment.depth = 4.98;  // a hub of 196 N is 20 mm in the bed, lines bow far below it
+  const Model model = build_model(scene);
+  ASSERT_GT(model.bodies[0].bed_length, 10.0);
+  const Assembler assembler(model);
+  const State state = bent_state(model);
+  std::vector<double> r(model.unknowns);
+  const TangentWeights w{1.0, 10.0, 200.0};
+  Tangent tangent = assembler.make_tangent();
+  assembler.tangent(state, w, TangentFloor{}, r, tangent);
+  const int inner = static_cast<int>(model.unknowns - model.dofs);
+  const Matrix expected = condensed(measured(assembler, state, moving(model), w), inner, 3 * static_cast<int>(model.hubs.size()));
+  EXPECT_LT((assembled(model, tangent) - expected).norm(), 2e-9 * expected.norm());  // as above
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, BorderOf, ::testing::Values(ModelChoice::bar, ModelChoice::cable, ModelChoice::beam));
 
 TEST(Hub, BalanceStandsAtItsFirstEnd) {
