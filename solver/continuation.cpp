@@ -16,6 +16,7 @@ constexpr double least_cosine = 0.85;      // between the tangents of two points
 constexpr double increment_small = 1e-7;   // of a last correction, in the norm of motions
 constexpr double fold_rate = 1e-7;         // p' at a fold, of the p' along which the branch was entered
 constexpr int most_fold_corrections = 12;  // points tried for one fold
+constexpr int bifurcation_halvings = 24;   // of a step; to 1e-7 of it
 constexpr double correction_limit = 0.5;   // of the step: a corrector that goes further is on its way to another branch
 constexpr double stop_tolerance = 1e-9;    // relative to the spacing of stops: p is there already
 
@@ -37,6 +38,8 @@ class Follower {
   Follower(BranchSystem& system, const ContinuationOptions& options) : system_(system), options_(options) {}
 
   ContinuationReport run(double p, Vector q);
+  bool cross(BranchPoint& point, std::span<const double> mode, double size);
+  int factorizations() const { return report_.factorizations; }
 
  private:
   struct Step {
@@ -55,6 +58,7 @@ class Follower {
   Constraint tangent_of(const BranchPoint& point) const { return {point.q_rate, mass_ * point.p_rate}; }
   BranchPoint between(const BranchPoint& a, const BranchPoint& b, double h, double x) const;
   bool find_fold(BranchPoint a, BranchPoint b, BranchPoint& fold);
+  bool find_bifurcation(const BranchPoint& a, const BranchPoint& b, BranchPoint& found);
   bool take_stops(const BranchPoint& a, const BranchPoint& b);
   bool record(const BranchPoint& a, const BranchPoint& b);
   void keep(BranchPoint point, BranchPoint::Kind kind);
@@ -204,6 +208,19 @@ bool Follower::find_fold(BranchPoint a, BranchPoint b, BranchPoint& fold) {
   return true;
 }
 
+/// Where the number of negative pivots changes between a and b.
+bool Follower::find_bifurcation(const BranchPoint& a, const BranchPoint& b, BranchPoint& found) {
+  const double h = distance(a, b);
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < bifurcation_halvings; ++i) {
+    const double x = 0.5 * (low + high);
+    found = between(a, b, h, x);
+    if (!correct(tangent_of(found), found, correction_limit * h)) return false;
+    (system_.negative_pivots(found.q) == a.negative_pivots ? low : high) = x;
+  }
+  return true;
+}
+
 void Follower::keep(BranchPoint point, BranchPoint::Kind kind) {
   point.kind = kind;
   if (kind != BranchPoint::Kind::step && system_.move_to(point.p, point.q)) point.negative_pivots = system_.negative_pivots(point.q);
@@ -246,20 +263,20 @@ bool Follower::take_stops(const BranchPoint& a, const BranchPoint& b) {
 /// What lies between two steps, and the second one; false where a point between them could not be solved.
 bool Follower::record(const BranchPoint& a, const BranchPoint& b) {
   const bool turns = std::signbit(a.p_rate) != std::signbit(b.p_rate);
-  if (turns && options_.folds_change_stability && a.negative_pivots == b.negative_pivots) {
+  const bool changes = options_.folds_change_stability && a.negative_pivots != b.negative_pivots;
+  if (turns && options_.folds_change_stability && !changes) {
     report_.end = ContinuationEnd::not_unique;
     return true;
   }
-  BranchPoint fold;
-  if (turns && !find_fold(a, b, fold)) return false;
-  if (!turns) {
-    if (!take_stops(a, b)) return false;
-  } else {
-    if (!take_stops(a, fold)) return false;
+  if (turns || changes) {
+    BranchPoint special;
+    if (!(turns ? find_fold(a, b, special) : find_bifurcation(a, b, special)) || !take_stops(a, special)) return false;
     if (reached_) return true;
-    ++report_.folds;
-    keep(fold, BranchPoint::Kind::fold);
-    if (!take_stops(fold, b)) return false;
+    ++(turns ? report_.folds : report_.bifurcations);
+    keep(special, turns ? BranchPoint::Kind::fold : BranchPoint::Kind::bifurcation);
+    if (!take_stops(special, b)) return false;
+  } else if (!take_stops(a, b)) {
+    return false;
   }
   if (!reached_) keep(b, BranchPoint::Kind::step);
   return true;
@@ -277,12 +294,13 @@ ContinuationReport Follower::run(double p, Vector q) {
   for (int steps = 0; steps < (report_.folds > 0 ? options_.most_steps : options_.steps_to_fold);) {
     BranchPoint next;
     const std::size_t kept = report_.points.size();
-    const int folds = report_.folds;
+    const int folds = report_.folds, bifurcations = report_.bifurcations;
     const bool advanced = advance(here, h, next);
     const int corrections = corrections_;
     if (!advanced || !record(here, next)) {
       report_.points.resize(kept);  // what was taken on a step that did not hold is taken again
       report_.folds = folds;
+      report_.bifurcations = bifurcations;
       h *= 0.5;
       if (h < least_step * first) return report_;
       continue;
@@ -304,10 +322,32 @@ ContinuationReport Follower::run(double p, Vector q) {
   return report_;
 }
 
+/// From a bifurcation to the branch that crosses there.
+bool Follower::cross(BranchPoint& point, std::span<const double> mode, double size) {
+  mass_ = 0.0;  // p is free
+  Constraint across{Vector(mode.begin(), mode.end()), 0.0};
+  const double length = std::sqrt(system_.product(mode, mode));
+  for (double& x : across.q) x /= length;
+  spring_ = system_.strongest(across.q);
+  add(point.q, size, across.q);
+  return correct(across, point, correction_limit * size);
+}
+
 }  // namespace
 
 ContinuationReport follow_branch(BranchSystem& system, double p, std::vector<double> q, const ContinuationOptions& options) {
   return Follower(system, options).run(p, std::move(q));
+}
+
+std::optional<BranchPoint> cross_branch(BranchSystem& system, const BranchPoint& bifurcation, std::span<const double> mode, double size,
+                                        int& factorizations) {
+  const ContinuationOptions options;
+  Follower follower(system, options);
+  BranchPoint point = bifurcation;
+  point.kind = BranchPoint::Kind::step;
+  const bool met = follower.cross(point, mode, size);
+  factorizations = follower.factorizations();
+  return met ? std::optional(std::move(point)) : std::nullopt;
 }
 
 }  // namespace hawser

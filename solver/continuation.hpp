@@ -19,11 +19,16 @@
 //
 // The step grows and shrinks with the iterations of the corrector and with the angle between tangents. A fold, p' = 0, is found between two points
 // of opposite p' by Hermite interpolation in s, corrected until p' vanishes: p is then exact to second order in what is left of p'.
-// E. Allgower, K. Georg, Introduction to Numerical Continuation Methods, 1990; T. Chan, SIAM J. Numer. Anal. 21 (1984) 738 (deflation).
+// Where the number of negative pivots changes between two points without a fold, another branch crosses (a bifurcation): the place is found by
+// bisection between them, because the bordered matrix is singular there too. The branch that crosses is met at a distance h along the mode phi whose
+// stiffness vanishes there:
+//   R(q, p) = 0,   <phi, q - q0> = h,      (q0, p0) the bifurcation. E.
+// Allgower, K. Georg, Introduction to Numerical Continuation Methods, 1990; T. Chan, SIAM J. Numer. Anal. 21 (1984) 738 (deflation).
 #pragma once
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -63,13 +68,13 @@ class BranchSystem {
 };
 
 struct BranchPoint {
-  enum class Kind { step, stop, fold };
+  enum class Kind { step, stop, fold, bifurcation };
   Kind kind = Kind::step;
   double p = 0.0;
   std::vector<double> q;
   std::vector<double> q_rate;  // q'
   double p_rate = 0.0;         // p'
-  int negative_pivots = 0;     // of the system; at a fold one is about to change its sign
+  int negative_pivots = 0;     // of the system; at a fold one is about to change its sign, at a bifurcation one or more
   double residual = 0.0;       // of the reference
   int factorizations = 0;      // since the point before
 };
@@ -81,7 +86,7 @@ struct ContinuationOptions {
   double motion_by_p = 0.0;            // sqrt(m), from what is known of the branch already; 0: |dq/dp| where it is entered (too much next to a fold)
   int most_steps = 400;                // in all, and
   int steps_to_fold = 40;              // as long as no fold was met
-  bool folds_change_stability = true;  // there is a potential: at a fold the number of negative pivots changes
+  bool folds_change_stability = true;  // there is a potential: at a fold the number of negative pivots changes, and elsewhere only at a bifurcation
 };
 
 enum class ContinuationEnd {
@@ -95,10 +100,14 @@ enum class ContinuationEnd {
 struct ContinuationReport {
   ContinuationEnd end = ContinuationEnd::stuck;
   std::vector<BranchPoint> points;  // in the order of s, without the first
-  int folds = 0, factorizations = 0;
+  int folds = 0, bifurcations = 0, factorizations = 0;
 };
 
 /// Follows the branch from its point (q, p) towards the target.
 ContinuationReport follow_branch(BranchSystem& system, double p, std::vector<double> q, const ContinuationOptions& options);
+
+/// A point of the branch that crosses this one at a bifurcation, at the distance `size` along the mode (of any length); nothing where none is found.
+std::optional<BranchPoint> cross_branch(BranchSystem& system, const BranchPoint& bifurcation, std::span<const double> mode, double size,
+                                        int& factorizations);
 
 }  // namespace hawser

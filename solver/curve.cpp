@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/norms.hpp"
+#include "solver/stability.hpp"
+
 namespace hawser {
 namespace {
 
@@ -17,6 +20,8 @@ constexpr double large_miss = 0.5;        // of the way from the last equilibriu
 constexpr double unlike = 3.0;            // ratio of two tangents, and
 constexpr double like_cosine = 0.8;       // angle between them, and
 constexpr double like_chord = 0.3;        // what the chord misses their mean by: beyond these two equilibria are not joined without a look
+constexpr double first_crossing = 0.02;   // of the length, mean motion: how far along its mode a crossing branch is met, and
+constexpr double least_crossing = 1e-4;   // how near to the bifurcation at least
 constexpr double large_move = 2.5;        // of what the last step lets expect
 
 /// Mean distance of the nodes of two states, of the longest line.
@@ -53,19 +58,37 @@ const char* describe(ContinuationEnd end) {
 }
 
 /// Water moves past the lines: the loads have no potential, and the elastic tangent does not see every fold.
-bool flows(const Model& model) { return model.wet && (model.current.fastest() > 0.0 || model.tow != Vec3::Zero()); }
+bool flows(const Model& model) {
+  const bool drags = model.wet || std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.drag > 0.0; });
+  return drags && (model.current.fastest() > 0.0 || model.tow != Vec3::Zero());
+}
 
-/// The folds and the equilibria at the values, but the answer itself.
+/// Whether a push dies away. Drag has no potential: in a flow the whole tangent decides, and the elastic one only where that is singular.
+bool holds(const Model& model, const State& state, int negative_pivots, double reference_force) {
+  if (!flows(model)) return negative_pivots == 0;
+  const std::optional<double> decay = slowest_decay(model, state, reference_force / std::pow(longest_line(model), 2));
+  return decay ? *decay > 0.0 : negative_pivots == 0;
+}
+
+/// Folds, bifurcations and the equilibria at the values, but the answer itself.
 std::vector<PassedPoint> passed_points(ModelBranch& branch, const ContinuationReport& way, bool arrived) {
+  using Kind = BranchPoint::Kind;
   std::vector<PassedPoint> passed;
   int iterations = 0;
   for (const BranchPoint& point : way.points) {
     iterations += point.factorizations;
-    if (point.kind == BranchPoint::Kind::step || (arrived && &point == &way.points.back())) continue;
+    if (point.kind == Kind::step || (arrived && &point == &way.points.back())) continue;
     std::vector<double> q = point.q;
     if (!branch.move_to(point.p, q)) continue;
-    const bool fold = point.kind == BranchPoint::Kind::fold;
-    passed.push_back({point.p, fold, !fold && point.negative_pivots == 0, point.negative_pivots, iterations, point.residual, branch.state_of(q)});
+    PassedPoint& at = passed.emplace_back();
+    at.p = point.p;
+    at.fold = point.kind == Kind::fold;
+    at.bifurcation = point.kind == Kind::bifurcation;
+    at.state = branch.state_of(q);
+    at.stable = point.kind == Kind::stop && holds(branch.model(), at.state, point.negative_pivots, branch.residual(q).reference);
+    at.negative_pivots = point.negative_pivots;
+    at.iterations = iterations;
+    at.residual = point.residual;
     iterations = 0;
   }
   return passed;
@@ -114,6 +137,16 @@ bool StaticCurve::warm_start(const Assembler& assembler, double p, const StaticO
   return report.statics.converged && !(way_.model_at && off_the_branch(assembler.model(), guess, found, p));
 }
 
+/// Whether a state gives way (solver/model_branch.hpp), as what statics takes for stable may. Then it is no longer called stable.
+bool StaticCurve::gives_way(const Model& model, const State& state, StaticReport& statics) const {
+  if (!way_.model_at || flows(model) || statics.slowest_decay) return false;
+  const int directions = directions_that_give_way(model, state, statics.reference_force);
+  if (directions == 0) return false;
+  statics.stable = false;
+  statics.negative_pivots = directions;
+  return true;
+}
+
 /// Two equilibria whose tangents dq/dp fit the chord between them lie on one smooth piece of a branch; next to a fold they do not.
 bool StaticCurve::joined(ModelBranch& branch, double p, const State& found, StaticReport& statics) const {
   const Known& last = known_.back();
@@ -135,8 +168,7 @@ bool StaticCurve::joined(ModelBranch& branch, double p, const State& found, Stat
          std::sqrt(branch.product(missed, missed)) <= like_chord * chord;
 }
 
-/// Follows the branch from the last equilibrium to p; true if it leads to a stable equilibrium there, which is then the answer.
-bool StaticCurve::follow(ModelBranch& branch, const Model& model, double p, const StaticOptions& options, State& state, CurveReport& report) {
+ContinuationOptions StaticCurve::options_to(double p, const Model& model, const ModelBranch& branch, const std::vector<double>* answer) const {
   ContinuationOptions follow;
   follow.stops = way_.values;
   follow.target = p;
@@ -144,37 +176,88 @@ bool StaticCurve::follow(ModelBranch& branch, const Model& model, double p, cons
   follow.first_step = first_share * std::abs(p - known_.back().p);
   // What the last step moved says how a unit of p weighs; at first what the next one would move.
   const bool second = known_.size() > 1;
-  if (second || report.statics.converged) {
-    const std::vector<double>& other = second ? known_[known_.size() - 2].q : state.q;
-    const double step = second ? known_.back().p - known_[known_.size() - 2].p : p - known_.back().p;
-    std::vector<double> motion = known_.back().q;
-    for (std::size_t i = 0; i < motion.size(); ++i) motion[i] -= other[i];
-    follow.motion_by_p = std::sqrt(branch.product(motion, motion)) / std::abs(step);
-  }
-  const ContinuationReport way = follow_branch(branch, known_.back().p, known_.back().q, follow);
+  if (!second && !answer) return follow;
+  const std::vector<double>& other = second ? known_[known_.size() - 2].q : *answer;
+  const double step = second ? known_.back().p - known_[known_.size() - 2].p : p - known_.back().p;
+  std::vector<double> motion = known_.back().q;
+  for (std::size_t i = 0; i < motion.size(); ++i) motion[i] -= other[i];
+  follow.motion_by_p = std::sqrt(branch.product(motion, motion)) / std::abs(step);
+  return follow;
+}
+
+/// Makes an end of a branch at its model's p the answer.
+void StaticCurve::answer_with(ModelBranch& branch, const BranchPoint& end, bool stable, State& state, CurveReport& report) const {
+  std::vector<double> q = end.q;
+  branch.move_to(end.p, q);
+  const BranchResidual residual = branch.residual(q);
+  state = branch.state_of(q);
   StaticReport& statics = report.statics;
-  statics.stages.push_back(
-      fmt::format("along the branch: it {} after {} factorizations and {} folds", describe(way.end), way.factorizations, way.folds));
+  statics.converged = true;
+  statics.stable = stable;
+  statics.negative_pivots = end.negative_pivots;
+  statics.residual_force = residual.value;
+  statics.reference_force = residual.reference;
+  statics.roundoff_floor = residual.rounding;
+  statics.residual = end.residual;
+  statics.failure = {};
+  report.warm = true;
+}
+
+/// Follows the branch that crosses at a bifurcation, along its softest mode, to p; true where that leads to a stable equilibrium, now the answer.
+bool StaticCurve::cross_over(ModelBranch& branch, const BranchPoint& bifurcation, double p, State& state, CurveReport& report) const {
+  std::vector<double> q = bifurcation.q;
+  if (!branch.move_to(bifurcation.p, q)) return false;
+  const std::optional<StabilityMode> mode = softest_mode(branch.model(), branch.state_of(q), branch.residual(q).reference);
+  if (!mode) return false;
+  ContinuationOptions along;
+  along.stops = way_.values;
+  along.target = p;
+  for (double size = first_crossing; size >= least_crossing; size *= 0.25) {
+    along.motion_by_p = size / std::abs(p - bifurcation.p);
+    int factorizations = 0;
+    const std::optional<BranchPoint> start = cross_branch(branch, bifurcation, mode->shape, size, factorizations);
+    report.statics.iterations += factorizations;
+    const double gone = start ? (start->p - bifurcation.p) / (p - bifurcation.p) : 2.0;
+    if (gone >= 1.0) continue;
+    if (gone <= 0.0) return false;  // it sets out to the other side
+    along.first_step = first_share * std::abs(p - start->p);
+    const ContinuationReport way = follow_branch(branch, start->p, start->q, along);
+    report.statics.iterations += way.factorizations;
+    if (way.end != ContinuationEnd::reached || way.points.back().negative_pivots > 0) return false;
+    answer_with(branch, way.points.back(), true, state, report);
+    return true;
+  }
+  return false;
+}
+
+/// Follows the branch from the last equilibrium to p; true if it leads to a stable equilibrium there, which is then the answer. Where it lost its
+/// stability in a bifurcation, the answer is on the branch that crosses there; and an unstable one where nothing stable is known.
+bool StaticCurve::follow(ModelBranch& branch, const Assembler& assembler, double p, const StaticOptions& options, State& state, CurveReport& report) {
+  const Model& model = assembler.model();
+  StaticReport& statics = report.statics;
+  const ContinuationOptions follow = options_to(p, model, branch, statics.converged ? &state.q : nullptr);
+  const ContinuationReport way = follow_branch(branch, known_.back().p, known_.back().q, follow);
+  statics.stages.push_back(fmt::format("along the branch: it {} after {} factorizations, {} folds and {} bifurcations", describe(way.end),
+                                       way.factorizations, way.folds, way.bifurcations));
   if (options.log) options.log(statics.stages.back());
 
-  const bool arrived = way.end == ContinuationEnd::reached && way.points.back().negative_pivots == 0;
-  if (way.folds > 0) report.passed = passed_points(branch, way, arrived);
+  const bool reached = way.end == ContinuationEnd::reached;
+  bool stable = false, arrived = false;
+  if (reached) {
+    std::vector<double> q = way.points.back().q;
+    branch.move_to(p, q);
+    stable = holds(model, branch.state_of(q), way.points.back().negative_pivots, branch.residual(q).reference);
+    const auto last =
+        std::find_if(way.points.rbegin(), way.points.rend(), [](const BranchPoint& at) { return at.kind == BranchPoint::Kind::bifurcation; });
+    const bool left = !stable && last != way.points.rend() && cross_over(branch, *last, p, state, report);
+    arrived = stable || (!left && statics.converged && !statics.stable);
+  }
+  if (way.folds + way.bifurcations > 0) report.passed = passed_points(branch, way, arrived);
   statics.iterations += way.factorizations;
   for (const PassedPoint& point : report.passed) statics.iterations -= point.iterations;
   if (!arrived) return false;
 
-  std::vector<double> q = way.points.back().q;
-  branch.move_to(p, q);
-  const BranchResidual residual = branch.residual(q);
-  state = branch.state_of(q);
-  statics.converged = statics.stable = true;
-  statics.negative_pivots = 0;
-  statics.residual_force = residual.value;
-  statics.reference_force = residual.reference;
-  statics.roundoff_floor = residual.rounding;
-  statics.residual = way.points.back().residual;
-  statics.failure = {};
-  report.warm = true;
+  answer_with(branch, way.points.back(), stable, state, report);
   keep_last(way);
   return true;
 }
@@ -209,19 +292,23 @@ CurveReport StaticCurve::next(const Assembler& assembler, double p, const Static
     report.statics.iterations += tried.iterations;
     report.statics.stages.insert(report.statics.stages.begin(), tried.stages.begin(), tried.stages.end());
   }
+  const bool gave_way = report.statics.converged && gives_way(model, state, report.statics) && stable_;  // somewhere on the way
+  if (gave_way) connected = false;
   if (!connected && way_.model_at && !known_.empty() && !ended_) {
     ModelBranch branch(way_.model_at, model, difference_step * spacing(way_.values), options);
-    connected = report.statics.converged && joined(branch, p, state, report.statics);
-    if (!connected) connected = follow(branch, model, p, options, state, report);
+    connected = report.statics.converged && !gave_way && joined(branch, p, state, report.statics);
+    if (!connected) connected = follow(branch, assembler, p, options, state, report);
     ended_ = !connected;
   }
   if (!report.statics.converged) return report;
   if (!connected) {
     known_.clear();
     ++branches_;
+    if (branches_ > 1 && flows(model)) report.statics.stable = holds(model, state, report.statics.negative_pivots, report.statics.reference_force);
   }
   report.branch = branches_;
   ended_ = false;
+  stable_ = report.statics.stable;
   known_.push_back({p, state.q});
   if (known_.size() > most_known) known_.pop_front();
   return report;

@@ -22,11 +22,12 @@
 
 namespace hawser {
 
-/// A point of the branch that was passed on the way: a fold, or an equilibrium at one of the values.
+/// A point of the branch that was passed on the way: a fold, a bifurcation, or an equilibrium at one of the values.
 struct PassedPoint {
   double p = 0.0;
-  bool fold = false;
-  bool stable = false;  // no negative pivot of the elastic tangent; false at a fold
+  bool fold = false, bifurcation = false;
+  bool stable =
+      false;  // in a flow: every push dies away (stability.hpp); else no negative pivot of the elastic tangent; false at a fold or bifurcation
   int negative_pivots = 0;
   int iterations = 0;     // factorizations since the point before
   double residual = 0.0;  // relative to the reference force
@@ -63,8 +64,12 @@ class StaticCurve {
 
   State predicted(const Model& model, double p) const;
   bool warm_start(const Assembler& assembler, double p, const StaticOptions& options, State& found, CurveReport& report) const;
+  bool gives_way(const Model& model, const State& state, StaticReport& statics) const;
   bool joined(ModelBranch& branch, double p, const State& found, StaticReport& statics) const;
-  bool follow(ModelBranch& branch, const Model& model, double p, const StaticOptions& options, State& state, CurveReport& report);
+  ContinuationOptions options_to(double p, const Model& model, const ModelBranch& branch, const std::vector<double>* answer) const;
+  bool follow(ModelBranch& branch, const Assembler& assembler, double p, const StaticOptions& options, State& state, CurveReport& report);
+  bool cross_over(ModelBranch& branch, const BranchPoint& bifurcation, double p, State& state, CurveReport& report) const;
+  void answer_with(ModelBranch& branch, const BranchPoint& end, bool stable, State& state, CurveReport& report) const;
   void keep_last(const ContinuationReport& way);
   bool off_the_branch(const Model& model, const State& guess, const State& found, double p) const;
 
@@ -73,6 +78,7 @@ class StaticCurve {
   std::deque<Known> known_;  // on one branch, oldest first
   bool ended_ = false;       // followed from the last of them in vain: once is enough
   int branches_ = 0;         // met so far
+  bool stable_ = true;       // the last of them
 };
 
 }  // namespace hawser

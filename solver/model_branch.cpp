@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/stability.hpp"
 #include "solver/static_system.hpp"
 
 namespace hawser {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double automatic_tolerance = 1e-10;  // as statics
 constexpr TangentWeights static_weights{1.0, 0.0, 0.0};
+constexpr double neutral_rounding = 1e-14;  // of EA/l^2, as in static_system.cpp
 
 /// Least tensions kept where the tension vanishes, as in statics; the exact tangent where a line is compressed.
 TangentFloor floor_for(const Model& model, const State& state) {
@@ -50,6 +52,13 @@ std::vector<double> product_weights(const Model& model) {
   return weights;
 }
 
+/// Up to this stiffness [N/m^2] a mode is neutral or rounding.
+double little_stiffness(const Model& model, double reference_force) {
+  double stiffest = 0.0;
+  for (std::size_t e = 0; e < model.element.EA.size(); ++e) stiffest = std::max(stiffest, model.element.EA[e] / std::pow(model.element.length[e], 2));
+  return neutral_stiffness(model, reference_force) + neutral_rounding * stiffest;
+}
+
 /// Prescribed unknowns, and those of hub ends beyond the first one, which only repeat it.
 std::vector<char> held_unknowns(const Model& model) {
   std::vector<char> held(model.dofs, 0);
@@ -62,6 +71,18 @@ std::vector<char> held_unknowns(const Model& model) {
     for (std::size_t i = 1; i < hub.ends.size(); ++i)
       std::fill_n(held.begin() + static_cast<std::ptrdiff_t>(model.dof(hub.ends[i].line, hub.ends[i].node)), 3, 1);
   return held;
+}
+
+/// Gives every node this stiffness [N/m per metre of line]: along a direction in which a state is neutral (a bent column turns about its axis) Newton
+/// would go anywhere.
+void hold(const Model& model, double stiffness, BlockTridiagonal& matrix) {
+  for (std::size_t line = 0; line < model.lines.size(); ++line) {
+    const Chain& chain = matrix.chains()[line];
+    for (int i = 0; i < chain.nodes; ++i) {
+      const double l = model.node_length[model.lines[line].first_node + i];
+      for (int k = 0; k < chain.block; ++k) matrix.D(chain, i)[k * (chain.block + 1)] += stiffness * l * (k < 3 ? 1.0 : l * l);
+    }
+  }
 }
 
 /// Doubles the diagonal of an unknown and returns what it was.
@@ -101,6 +122,11 @@ void follow_supports(const Model& model, State& state) {
 
 int unstable_directions(const Model& model, const State& state) {
   return free_of_compression(model, state, roundoff_force(model, state)) ? 0 : negative_pivots_of_elastic_tangent(model, state);
+}
+
+int directions_that_give_way(const Model& model, const State& state, double reference_force) {
+  if (free_of_compression(model, state, roundoff_force(model, state))) return 0;
+  return modes_below(model, state, -little_stiffness(model, reference_force));
 }
 
 struct ModelBranch::Instance {
@@ -198,6 +224,7 @@ bool ModelBranch::respond(std::span<const double> q, std::size_t spring, BranchR
   const State& state = instance_->with(q);
   Tangent& tangent = *tangent_;
   assembler.tangent(state, static_weights, floor_for(model, state), r, tangent);
+  hold(model, little_stiffness(model, residual(q).reference), tangent.chain);
   const double stiffness = spring == no_spring ? 0.0 : double_diagonal(tangent, spring);
   if (linear_.factorize(tangent).status != FactorStatus::ok) return false;
   std::vector<double> rhs(model.dofs);
@@ -215,7 +242,10 @@ bool ModelBranch::respond(std::span<const double> q, std::size_t spring, BranchR
   return true;
 }
 
-int ModelBranch::negative_pivots(std::span<const double> q) { return unstable_directions(instance_->model, instance_->with(q)); }
+int ModelBranch::negative_pivots(std::span<const double> q) {
+  const double reference = residual(q).reference;
+  return directions_that_give_way(instance_->model, instance_->with(q), reference);
+}
 
 double ModelBranch::product(std::span<const double> a, std::span<const double> b) const {
   double sum = 0.0;
@@ -234,6 +264,8 @@ std::size_t ModelBranch::strongest(std::span<const double> motion) const {
   }
   return found;
 }
+
+const Model& ModelBranch::model() const { return instance_->model; }
 
 State ModelBranch::state_of(std::span<const double> q) const {
   State state = instance_->state;

@@ -236,6 +236,8 @@ std::optional<StabilityMode> softest_mode(const Model& model, const State& state
   return mode;
 }
 
+int modes_below(const Model& model, const State& state, double stiffness) { return Pencil(model, state).below(stiffness); }
+
 std::optional<double> slowest_decay(const Model& model, const State& state, double softest) {
   const Model massive = with_unit_mass(model);
   const Assembler assembler(massive);

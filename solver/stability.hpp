@@ -39,4 +39,7 @@ double neutral_stiffness(const Model& model, double reference_force);
 /// The mode of least stiffness where the state is unstable or neutral along it; nothing where it is stable.
 std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force);
 
+/// How many modes are softer than this stiffness [N/m^2].
+int modes_below(const Model& model, const State& state, double stiffness);
+
 }  // namespace hawser

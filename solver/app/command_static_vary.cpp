@@ -60,7 +60,7 @@ std::optional<Model> model_between(const Request& request, const Variation& vary
 }
 
 struct Tally {
-  int converged = 0, warm = 0, passed = 0, folds = 0, iterations = 0;
+  int converged = 0, warm = 0, passed = 0, folds = 0, bifurcations = 0, iterations = 0;
 };
 
 void tell_value(const Request& request, const std::string& setting, const CurveReport& report) {
@@ -81,10 +81,12 @@ void add_passed(const Request& request, const Variation& vary, const CurveReport
     const std::optional<Model> model = model_between(request, vary, point.p);
     if (!model) continue;
     const std::string setting = vary.override_at(point.p);
-    table.add({vary.value(point.p), setting, true, point.stable, point.fold, true, point.negative_pivots, branch, point.iterations, point.residual},
+    table.add({vary.value(point.p), setting, true, point.stable, point.fold, point.bifurcation, true, point.negative_pivots, branch, point.iterations,
+               point.residual},
               *model, point.state);
     if (point.fold && !request.quiet) fmt::print(stderr, "static: {}: the branch folds\n", setting);
-    (point.fold ? tally.folds : tally.passed) += 1;
+    if (point.bifurcation && !request.quiet) fmt::print(stderr, "static: {}: stability changes, another branch crosses\n", setting);
+    (point.fold ? tally.folds : point.bifurcation ? tally.bifurcations : tally.passed) += 1;
     tally.iterations += point.iterations;
   }
 }
@@ -106,8 +108,8 @@ Tally solve_values(const Request& request, const Variation& vary, CurveTable& ta
     const CurveReport report = curve.next(assembler, i, options, state);
     const StaticReport& statics = report.statics;
     add_passed(request, vary, report, branch, table, tally);
-    table.add({vary.value(i), one.overrides.back(), statics.converged, statics.stable, false, report.warm, statics.negative_pivots, report.branch,
-               statics.iterations, statics.residual},
+    table.add({vary.value(i), one.overrides.back(), statics.converged, statics.stable, false, false, report.warm, statics.negative_pivots,
+               report.branch, statics.iterations, statics.residual},
               model, state, statics.failure);
     tell_value(request, one.overrides.back(), report);
     if (statics.converged) branch = report.branch;
@@ -148,7 +150,8 @@ int command_static_vary(const Request& request) {
   if (!request.quiet) {
     fmt::print(stderr, "static: {} of {} values converged, {} of them from the values before; {} factorizations\n", tally.converged, vary.count,
                tally.warm, tally.iterations);
-    if (tally.folds > 0) fmt::print(stderr, "static: {} folds; {} further equilibria between them\n", tally.folds, tally.passed);
+    if (tally.folds + tally.bifurcations > 0)
+      fmt::print(stderr, "static: {} folds, {} bifurcations; {} further equilibria next to them\n", tally.folds, tally.bifurcations, tally.passed);
   }
   if (folder) write_folder(*folder, request, vary, table, tally.converged > 0);
   if (tally.converged == vary.count) return static_cast<int>(ExitCode::done);

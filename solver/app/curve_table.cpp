@@ -83,8 +83,8 @@ void CurveTable::add(const CurveRow& row, const Model& model, const State& state
   parts_.branches = std::max(parts_.branches, row.branch);
   parts_.unstable = parts_.unstable || (row.converged && !row.stable);
   // A failed value keeps its row; what is left of its solve is no equilibrium and not shown.
-  std::string line = fmt::format("{},{:d},{:d},{},{},{:d},{:d},{},{}", row.value, row.converged, row.stable, row.negative_pivots, row.branch,
-                                 row.fold, row.warm, row.iterations, row.residual);
+  std::string line = fmt::format("{},{:d},{:d},{},{},{:d},{:d},{:d},{},{}", row.value, row.converged, row.stable, row.negative_pivots, row.branch,
+                                 row.fold, row.bifurcation, row.warm, row.iterations, row.residual);
   for (const Column& column : columns) line += fmt::format(",{}", row.converged ? column.value : std::numeric_limits<double>::quiet_NaN());
   write(line + '\n');
 
@@ -95,6 +95,7 @@ void CurveTable::add(const CurveRow& row, const Model& model, const State& state
                {"negative_pivots", row.negative_pivots},
                {"branch", row.branch},
                {"fold", row.fold},
+               {"bifurcation", row.bifurcation},
                {"warm", row.warm},
                {"iterations", row.iterations},
                {"residual", row.residual},
@@ -106,7 +107,7 @@ void CurveTable::add(const CurveRow& row, const Model& model, const State& state
 }
 
 void CurveTable::write_header(const std::vector<Column>& columns) {
-  std::string line = "value,converged,stable,negative_pivots,branch,fold,warm,iterations,residual";
+  std::string line = "value,converged,stable,negative_pivots,branch,fold,bifurcation,warm,iterations,residual";
   for (const Column& column : columns) line += ',' + column.name;
   write(line + '\n');
 }

@@ -16,7 +16,7 @@ namespace hawser {
 struct CurveRow {
   double value = 0.0;   // of the key, in its unit
   std::string setting;  // the override that gives it
-  bool converged = false, stable = false, fold = false, warm = false;
+  bool converged = false, stable = false, fold = false, bifurcation = false, warm = false;
   int negative_pivots = 0, branch = 0, iterations = 0;
   double residual = 0.0;
 };

@@ -27,7 +27,8 @@ std::string curve_script(const std::string& title, const std::string& abscissa, 
     const auto add = [&](const char* end, int point, const char* dash) {
       const std::string name = gnuplot_quoted(line.name + " at " + model.points[static_cast<std::size_t>(point)].name);
       text += fmt::format("{} linewidth 2 {} pointtype 7 pointsize 0.8 linecolor rgb '{}' title (b==1 ? {} : '') noenhanced, \\\n     ",
-                          curve_of(line, end, parts, "column(\"stable\")==1 || column(\"fold\")==1"), dash, colour_of(i), name);
+                          curve_of(line, end, parts, "column(\"stable\")==1 || column(\"fold\")==1 || column(\"bifurcation\")==1"), dash,
+                          colour_of(i), name);
       if (!parts.unstable) return;
       text += fmt::format("{} linewidth 1 dashtype '.' pointtype 6 pointsize 0.8 linecolor rgb '{}' title (b==1 ? {} : '') noenhanced, \\\n     ",
                           curve_of(line, end, parts, "column(\"stable\")==0"), colour_of(i), gnuplot_quoted("unstable"));

@@ -156,6 +156,40 @@ TEST(Continuation, TheCorrectorConvergesAtAFoldAsFastAsElsewhere) {
   EXPECT_LE(folds[0].factorizations, 4 * 6);
 }
 
+TEST(Continuation, FindsWhereABranchLosesAndRegainsStabilityWithoutFold) {
+  // x = p, y = 0, whose stiffness along y is (p - 1/3)(p - 4/3): pitchforks at 1/3 and 4/3.
+  const auto stiffness = [](double p) { return (p - 1.0 / 3.0) * (p - 4.0 / 3.0); };
+  const Problem pitchforks{[=](const Vector& q, double p) { return Vector(q[0] - p, stiffness(p) * q[1] + std::pow(q[1], 3)); },
+                           [=](const Vector& q, double p) {
+                             return Matrix{{1.0, 0.0}, {0.0, stiffness(p) + 3.0 * q[1] * q[1]}};
+                           },
+                           [](const Vector& q, double p) { return Vector(-1.0, (2.0 * p - 5.0 / 3.0) * q[1]); }};
+  SmallBranch branch(pitchforks);
+  ContinuationOptions options;
+  options.stops = {0.0, 1.0, 2.0};
+  options.target = 2.0;
+  options.first_step = 0.25;
+  const ContinuationReport report = follow_branch(branch, 0.0, {0.0, 0.0}, options);
+  ASSERT_EQ(report.end, ContinuationEnd::reached);
+  EXPECT_EQ(report.folds, 0);
+  ASSERT_EQ(report.bifurcations, 2);
+  const std::vector<BranchPoint> found = of_kind(report, BranchPoint::Kind::bifurcation), stops = of_kind(report, BranchPoint::Kind::stop);
+  EXPECT_NEAR(found[0].p, 1.0 / 3.0, 2e-7);  // to 1e-7 of a step, which is not longer than the way
+  EXPECT_NEAR(found[1].p, 4.0 / 3.0, 2e-7);
+  ASSERT_EQ(stops.size(), 2u);
+  EXPECT_EQ(stops[0].negative_pivots, 1);
+  EXPECT_EQ(stops[1].negative_pivots, 0);
+  // The branch that crosses: y^2 = -(p - 1/3)(p - 4/3).
+  int factorizations = 0;
+  const std::optional<BranchPoint> other = cross_branch(branch, found[0], std::vector<double>{0.0, -3.0}, 0.2, factorizations);
+  ASSERT_TRUE(other.has_value());
+  EXPECT_NEAR(other->q[1], -0.2, exact);
+  EXPECT_NEAR(other->p, (5.0 - std::sqrt(9.0 - 36.0 * 0.04)) / 6.0, 1e-11);  // residuals end below 1e-13, times 1/(0.2 * 0.92)
+  EXPECT_GT(factorizations, 0);
+  options.folds_change_stability = false;  // what the pivots say is not what decides
+  EXPECT_EQ(follow_branch(branch, 0.0, {0.0, 0.0}, options).bifurcations, 0);
+}
+
 TEST(Continuation, SaysThatABranchCannotBeFollowedWhereTheProblemEnds) {
   SmallBranch branch(cubic());
   branch.end_of_problem = 0.5;

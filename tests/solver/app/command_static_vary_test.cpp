@@ -1,4 +1,5 @@
 // hawser static --vary: rows, files, refusals and exit codes.
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -231,6 +232,52 @@ TEST_F(CliVary, FoldsArePassedOnOneBranchAndTheirRowsAreMarked) {
   }
   EXPECT_NE(outcome.err.find("the branch folds"), std::string::npos);
   EXPECT_NE(contents(folder_ / "results/plots/curve.gp").find("unstable"), std::string::npos);
+}
+
+/// A pinned strut 10 m long, to be pushed together (tests/solver/curve_bifurcation_test.cpp).
+const std::string strut_scene = R"([environment]
+water_density = 0.0
+[line_types.rod]
+diameter = 0.04
+mass = 1.0
+wet_weight = 1e-3
+EA = 1e6
+EI = 1000.0
+[points.foot]
+position = [0.0, 0.0, 0.0]
+[points.top]
+position = [0.0, 0.0, 10.0]
+[lines.strut]
+from = "foot"
+to = "top"
+sections = [ { type = "rod", length = 10.0, elements = 16 } ]
+)";
+
+TEST_F(CliVary, ABifurcationIsARowAndTheBranchIsLeftForTheStableOne) {
+  write("scene.toml", strut_scene);
+  const Outcome outcome = hawser("static scene.toml --start straight --vary points.top.position.2=9.9998:9.9982:5 --out results");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<Row> rows = rows_of(outcome.out);
+  // Straight at 9.9998 and 9.9994, it buckles at 9.999013 (P (1 - P/EA) = pi^2 EI/L^2), is unstable there and, straight, at 9.9990, then bowed.
+  const std::vector<std::array<double, 4>> expected{{9.9998, 1, 1, 0}, {9.9994, 1, 1, 0}, {9.999012942, 1, 0, 1}, {9.9990, 1, 0, 0},
+                                                    {9.9990, 2, 1, 0}, {9.9986, 2, 1, 0}, {9.9982, 2, 1, 0}};
+  ASSERT_EQ(rows.size(), expected.size());
+  const nlohmann::json array = nlohmann::json::parse(contents(folder_ / "results/curve.json"));
+  ASSERT_EQ(array.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& [value, branch, stable, bifurcation] = expected[i];
+    EXPECT_NEAR(rows[i].at("value"), value, 2e-9) << i;  // the mesh makes 2e-6 of 9.9e-4 m
+    EXPECT_EQ(rows[i].at("branch"), branch) << i;
+    EXPECT_EQ(rows[i].at("stable"), stable) << i;
+    EXPECT_EQ(rows[i].at("bifurcation"), bifurcation) << i;
+    EXPECT_EQ(rows[i].at("fold"), 0.0) << i;
+    if (bifurcation == 0.0) {
+      EXPECT_EQ(rows[i].at("negative_pivots") > 0.0, stable == 0.0) << i;
+    }
+    EXPECT_EQ(array[i].at("bifurcation").get<bool>(), bifurcation == 1.0) << i;
+    EXPECT_EQ(array[i].at("stable").get<bool>(), stable == 1.0) << i;
+  }
+  EXPECT_NE(outcome.err.find("another branch crosses"), std::string::npos);
 }
 
 }  // namespace
