@@ -40,6 +40,7 @@ void Tangent::symmetrize() {
 struct Assembler::Impl {
   struct PanelOf {
     int line, panel;
+    int table;  // the panel of the line whose properties it reads: those of a uniform line stay in the cache
   };
 
   const Model& model;
@@ -67,7 +68,7 @@ struct Assembler::Impl {
     for (std::size_t line = 0; line < m.lines.size(); ++line) {
       first_panel.push_back(static_cast<int>(panels.size()));
       const int count = panel_count(m.lines[line].nodes);
-      for (int p = 0; p < count; ++p) panels.push_back({static_cast<int>(line), p});
+      for (int p = 0; p < count; ++p) panels.push_back({static_cast<int>(line), p, p});
     }
     carry.assign(panels.size() * carry_size, 0.0);
     node_property[0] = shared_at_nodes(property[1]);
@@ -104,6 +105,29 @@ struct Assembler::Impl {
     } else {
       at_nodes.assign(model.total_nodes() + table_padding, no_floor);
     }
+    share_tables();
+  }
+
+  /// A panel whose properties are those of the panel before it reads them there.
+  void share_tables() {
+    for (std::size_t p = 1; p < panels.size(); ++p) {
+      const PanelOf& before = panels[p - 1];
+      PanelOf& now = panels[p];
+      now.table = before.line == now.line && same_properties(model.lines[now.line], before.table, now.panel) ? before.table : now.panel;
+    }
+  }
+
+  /// Of panels a and b of a line, as far as b goes.
+  bool same_properties(const Line& line, int a, int b) const {
+    const int i = first_node_of_panel(a), k = first_node_of_panel(b), elements = std::min(panel_elements, line.elements - k);
+    const auto same = [&](int start, int count) {
+      return [=](const std::vector<double>& table) {
+        const auto at = table.begin() + start;
+        return std::equal(at + i, at + i + count, at + k);
+      };
+    };
+    return std::all_of(std::begin(property), std::end(property), same(line.first_element, elements)) &&
+           std::all_of(std::begin(node_property), std::end(node_property), same(line.first_node, elements + 1));
   }
 
   void set_floor(const TangentFloor& f) {
@@ -111,21 +135,22 @@ struct Assembler::Impl {
     floor.gauss_newton = f.gauss_newton;
   }
 
-  SweepLine sweep_line(int index, const State& state, const TangentWeights& w, double* r, double* values) {
-    const Line& line = model.lines[index];
-    const Chain& chain = model.chain(index);
+  SweepLine sweep_line(const PanelOf& panel, const State& state, const TangentWeights& w, double* r, double* values) {
+    const Line& line = model.lines[panel.line];
+    const Chain& chain = model.chain(panel.line);
+    const int table = first_node_of_panel(panel.table);
     SweepLine s{};
     s.elements = line.elements;
     s.q = state.q.data() + chain.first_dof;
     s.v = state.v.data() + chain.first_dof;
     s.a = state.a.data() + chain.first_dof;
-    for (int k = 0; k < property_count; ++k) s.property[k] = property[k].data() + line.first_element;
-    for (int k = 0; k < node_property_count; ++k) s.node_property[k] = node_property[k].data() + line.first_node;
+    for (int k = 0; k < property_count; ++k) s.property[k] = property[k].data() + line.first_element + table;
+    for (int k = 0; k < node_property_count; ++k) s.node_property[k] = node_property[k].data() + line.first_node + table;
     s.weights = {w.stiffness, w.damping, w.mass, floor.gauss_newton};
     s.current = current_table(model);
     s.r = r + chain.first_dof;
     s.blocks = values;
-    s.carry = carry.data() + static_cast<std::size_t>(first_panel[index]) * carry_size;
+    s.carry = carry.data() + static_cast<std::size_t>(first_panel[panel.line]) * carry_size;
     return s;
   }
 
@@ -152,9 +177,12 @@ struct Assembler::Impl {
   /// direction: to the panel that is made next, 1 or -1.
   void run_panel(int p, int direction, const State& state, const TangentWeights& w, double* r, double* values) {
     const int family = sweep_family(static_cast<int>(model.lines[panels[p].line].family), model.wet);
-    SweepLine line = sweep_line(panels[p].line, state, w, r, values);
+    SweepLine line = sweep_line(panels[p], state, w, r, values);
     const int next = panels[p].panel + direction;
-    if (line.elements >= fetched_ahead_from && next >= 0 && first_node_of_panel(next) < line.elements) line.next = direction * panel_elements;
+    if (line.elements >= fetched_ahead_from && next >= 0 && first_node_of_panel(next) < line.elements) {
+      line.next = direction * panel_elements;
+      line.next_table = panel_elements * (panels[p + direction].table - panels[p].table);
+    }
     (values ? sweep.tangent : sweep.force)[family](line, panels[p].panel);
   }
 
@@ -237,7 +265,7 @@ void Assembler::reduce(Tangent& tangent, std::span<const double> r, std::span<do
 }
 
 void Assembler::expand(const Tangent& tangent, std::span<const double> x, std::span<double> d) const {
-  std::copy(x.begin(), x.end(), d.begin());
+  if (x.data() != d.data()) std::copy(x.begin(), x.end(), d.begin());
   for (std::size_t k = 0; k < model_.joints.size(); ++k) {
     const Joint& joint = model_.joints[k];
     const Elimination& e = tangent.eliminations[k];

@@ -74,7 +74,7 @@ class Assembler {
   /// rhs (Model::dofs) = -(R condensed), zero in constrained directions.
   void reduce(Tangent& tangent, std::span<const double> r, std::span<double> rhs) const;
 
-  /// d (Model::unknowns) from the solution x (Model::dofs) of the condensed system.
+  /// d (Model::unknowns) from the solution x (Model::dofs) of the condensed system, which may be the beginning of d.
   void expand(const Tangent& tangent, std::span<const double> x, std::span<double> d) const;
 
   /// Projects a residual on the directions that may move: what must vanish at equilibrium.

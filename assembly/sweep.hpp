@@ -21,14 +21,15 @@ inline constexpr int node_property_count = 3;  // axial terms at nodes: sum of s
 struct SweepLine {
   int elements;
   const double *q, *v, *a;                           // the line's unknowns
-  const double* property[property_count];            // per element of the line
-  const double* node_property[node_property_count];  // per node of the line
+  const double* property[property_count];            // per element of the panel
+  const double* node_property[node_property_count];  // per node of the panel
   Weights weights;
   CurrentTable current;
   double* r;       // the line's residual
   double* blocks;  // D, U, L of the panel's nodes; null: residual alone
   double* carry;   // carry_size doubles a panel
   int next;        // elements from the panel to the one that is made after it, whose data are fetched meanwhile; 0: none
+  int next_table;  // the same from its properties to those of the other; 0: none, or shared
 };
 
 using SweepFunction = void (*)(const SweepLine&, int panel);

@@ -64,11 +64,11 @@ HAWSER_INLINE Properties<Pack<W>> load_properties(const SweepLine& line, int e) 
 
 /// The rows of the current that a panel reaches: its elements stay within the control points of their curves, r -+ (l/3) r'.
 template <int B, int W>
-HAWSER_INLINE CurrentTable current_around(const SweepLine& line, const PanelState<B>& state, int first, int count) {
+HAWSER_INLINE CurrentTable current_around(const SweepLine& line, const PanelState<B>& state, int count) {
   using S = Pack<W>;
   if (line.current.rows < 3) return line.current;
   S longest(0.0), low(1e300), high(-1e300);
-  for (int i = 0; i < count; i += W) longest = maximum(longest, S::load(line.property[0] + first + i));
+  for (int i = 0; i < count; i += W) longest = maximum(longest, S::load(line.property[0] + i));
   double third = 0.0;
   for (int lane = 0; lane < W; ++lane) third = longest.v[lane] / 3.0 > third ? longest.v[lane] / 3.0 : third;
   for (int i = 0; i <= count; i += W) {
@@ -90,7 +90,7 @@ struct NodalAxial {
   alignas(64) double f[3][panel_nodes], K[9][panel_nodes];
 
   template <Want want, int W>
-  HAWSER_INLINE void compute(const SweepLine& line, const PanelState<6>& state, int first, int nodes) {
+  HAWSER_INLINE void compute(const SweepLine& line, const PanelState<6>& state, int nodes) {
     using S = Pack<W>;
     for (int i = 0; i < nodes; i += W) {
       V3<S> slope, rate, force;
@@ -99,9 +99,9 @@ struct NodalAxial {
         rate[c] = S::load(&state.x[1][c + 3][i]);
       }
       Properties<S> e{};
-      e.EA = S::load(line.node_property[0] + first + i);
-      e.axial_damping = S::load(line.node_property[1] + first + i);
-      e.least_tension = S::load(line.node_property[2] + first + i);
+      e.EA = S::load(line.node_property[0] + i);
+      e.axial_damping = S::load(line.node_property[1] + i);
+      e.least_tension = S::load(line.node_property[2] + i);
       M3<S> block;
       Axial::evaluate<want>(slope, rate, e, line.weights, force, block);
       for (int c = 0; c < 3; ++c) force[c].store(&f[c][i]);
@@ -193,15 +193,17 @@ HAWSER_INLINE void write_end(const SweepLine& line, const Running<B, W>& before,
 
 /// Asks for what the W elements from e on will need: the tables of a panel are too many short streams for the processor to foresee.
 template <int B, int W>
-HAWSER_INLINE void fetch_ahead(const SweepLine& line, int e) {
+HAWSER_INLINE void fetch_ahead(const SweepLine& line, int first, int local) {
+  const int e = first + local + line.next;
   const auto fetch = [](const double* p, int doubles) __attribute__((always_inline)) {
     for (int i = 0; i < doubles; i += 8) __builtin_prefetch(p + i, 0, 2);
   };
   fetch(line.q + B * e, B * W), fetch(line.v + B * e, B * W), fetch(line.a + B * e, B * W);
   for (int i = 0; i < B * W; i += 8) __builtin_prefetch(line.r + B * e + i, 1, 2);
-  for (const double* table : line.property) __builtin_prefetch(table + e, 0, 2);
+  if (line.next_table == 0) return;
+  for (const double* table : line.property) __builtin_prefetch(table + local + line.next_table, 0, 2);
   if constexpr (B == 6)
-    for (const double* table : line.node_property) __builtin_prefetch(table + e, 0, 2);
+    for (const double* table : line.node_property) __builtin_prefetch(table + local + line.next_table, 0, 2);
 }
 
 template <class Family, Want want, int W>
@@ -213,9 +215,9 @@ void sweep_panel(const SweepLine& line, int panel) {
   const int count = line.elements - first < panel_elements ? line.elements - first : panel_elements;
   PanelState<B> state;
   state.gather(line, first, count + 1);
-  const CurrentTable current = current_around<B, W>(line, state, first, count);
+  const CurrentTable current = current_around<B, W>(line, state, count);
   NodalAxial axial;
-  if constexpr (B == 6) axial.compute<want, W>(line, state, first, count + 1);
+  if constexpr (B == 6) axial.compute<want, W>(line, state, count + 1);
   Running<B, W> before;
   for (S& x : before.f) x = S(0.0);
   if constexpr (want == Want::tangent)
@@ -223,8 +225,8 @@ void sweep_panel(const SweepLine& line, int panel) {
   int lanes = W;
   for (int e = 0; e < count; e += W) {
     lanes = count - e < W ? count - e : W;
-    if (line.next != 0) fetch_ahead<B, W>(line, first + e + line.next);
-    const Properties<S> properties = load_properties<W>(line, first + e);
+    if (line.next != 0) fetch_ahead<B, W>(line, first, e);
+    const Properties<S> properties = load_properties<W>(line, e);
     const ElementState<S> x{state.template nodal<W>(0, e), state.template nodal<W>(1, e), state.template nodal<W>(2, e)};
     Integrand<Family, S> in;
     integrate<Family, want>(x, properties, line.weights, current, in);

@@ -94,7 +94,8 @@ struct MovingLine {
   Assembler assembler;
   State state;
   Tangent tangent;
-  std::vector<double> r, rhs, d;
+  std::vector<double> r, d;
+  std::span<double> rhs;  // in the place of d, as in a Newton iteration
 
   MovingLine(ModelChoice family, int elements, bool wet = true, int threads = 1)
       : model(build_model(line_scene(family, elements, wet))),
@@ -102,8 +103,8 @@ struct MovingLine {
         state(moving_state(model)),
         tangent(assembler.make_tangent()),
         r(model.unknowns),
-        rhs(model.dofs),
-        d(model.unknowns) {}
+        d(model.unknowns),
+        rhs(d.data(), model.dofs) {}
 
   void assemble() { assembler.tangent(state, step_weights(), TangentFloor{}, r, tangent); }
   TangentPanels panels() { return assembler.tangent_panels(state, step_weights(), TangentFloor{}, r, tangent, rhs); }

@@ -30,7 +30,7 @@ void linear(benchmark::State& state, const NamedSolver& named, Task task) {
   const auto solver = named.make();
   BlockTridiagonal& matrix = line.tangent.chain;
   if (!solver->takes_unsymmetric()) matrix.symmetrize();
-  std::vector<double> x = line.rhs;
+  std::vector<double> x(line.rhs.begin(), line.rhs.end());
   solver->analyze(matrix);
   const FactorReport report = solver->factorize(matrix);
   if (report.status != FactorStatus::ok) return state.SkipWithError(report.message.c_str());
@@ -41,7 +41,7 @@ void linear(benchmark::State& state, const NamedSolver& named, Task task) {
     solver->solve(x);
     benchmark::ClobberMemory();
   }
-  x = line.rhs;
+  x.assign(line.rhs.begin(), line.rhs.end());
   solver->solve(x);
   state.counters["s_per_element"] = per_element(elements);
   state.counters["bytes_per_element"] = static_cast<double>(solver->bytes()) / elements;

@@ -57,7 +57,6 @@ StaticSystem::StaticSystem(const Assembler& assembler, LinearSolver& linear, dou
       tangent_(assembler.make_tangent()),
       symmetry_(static_symmetry(model_, state)),
       r_(model_.unknowns),
-      rhs_(model_.dofs),
       d_(model_.unknowns) {
   linear_.analyze(tangent_);
   const std::vector<double>& least = model_.element.minimum_tension;
@@ -79,7 +78,7 @@ bool StaticSystem::solve(double floor) {
   bool exact = floor == 0.0 && residual_ <= exact_below_ * reference_force_ && least_tension() < -10.0 * least_kept_;
   const bool definite = !exact || !keep_definite_ || negative_pivots_here() == 0;
   exact = exact && definite;
-  TangentPanels panels = assembler_.tangent_panels(state_, {1.0, 0.0, resistance_}, {floor, !exact, floor > 0.0 || !definite}, r_, tangent_, rhs_);
+  TangentPanels panels = assembler_.tangent_panels(state_, {1.0, 0.0, resistance_}, {floor, !exact, floor > 0.0 || !definite}, r_, tangent_, rhs());
   // Proved for bodies at rest (assembly/symmetry.hpp). Where a line is compressed LU is taken: rounding that keeps to the symmetry keeps a straight
   // line from buckling.
   if (symmetry_ == Symmetry::symmetric && resistance_ == 0.0 && least_tension() >= 0.0) {
@@ -89,20 +88,20 @@ bool StaticSystem::solve(double floor) {
   factor_report_ = solve_with(panels);
   assembler_.project(r_);
   if (factor_report_.status != FactorStatus::ok) return false;
-  assembler_.expand(tangent_, rhs_, d_);
+  assembler_.expand(tangent_, rhs(), d_);
   return true;
 }
 
 FactorReport StaticSystem::solve_with(TangentPanels& panels) {
   if (!modified_) {
-    const FactorReport report = linear_.solve_once(panels, tangent_, rhs_);
+    const FactorReport report = linear_.solve_once(panels, tangent_, rhs());
     if (report.status != FactorStatus::not_applicable) return report;
   }
   modified_ = true;
   panels.whole();
   tangent_.symmetrize();
   const FactorReport report = linear_.factorize(tangent_);
-  if (report.status == FactorStatus::ok) linear_.solve(rhs_);
+  if (report.status == FactorStatus::ok) linear_.solve(rhs());
   return report;
 }
 

@@ -5,6 +5,9 @@
 // unsymmetric tangent of drag, its symmetric part is factorized: a modified Newton with the exact residual.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "assembly/assembler.hpp"
 #include "solver/bordered_solver.hpp"
 #include "solver/creep.hpp"
@@ -42,6 +45,7 @@ class StaticSystem : public CreepingSystem {
 
  private:
   FactorReport solve_with(TangentPanels& panels);
+  std::span<double> rhs() { return {d_.data(), model_.dofs}; }  // solved in the place of d_
   int negative_pivots_here();
 
   const Assembler& assembler_;
@@ -52,7 +56,7 @@ class StaticSystem : public CreepingSystem {
   double exact_below_;
   Tangent tangent_;
   Symmetry symmetry_;
-  std::vector<double> r_, rhs_, d_, carried_, start_;               // start_: q_n
+  std::vector<double> r_, d_, carried_, start_;                     // start_: q_n
   double resistance_ = 0.0;                                         // c, N/m^2
   double residual_ = 0.0, reference_force_ = 0.0, roundoff_ = 0.0;  // N
   double least_kept_ = 0.0;                                         // N, largest Model::minimum_tension

@@ -18,8 +18,9 @@
 // Values are laid out as in BlockTridiagonal: D, U, L of a node, column-major. Factors::lu take the same room, block for block: L_k\U_k in
 // the place of D_k, Y_k and X_k in the places of the couplings they come from; the order within a block is the kernel's own. The columns of U_k are
 // divided by their pivots, and the diagonal holds the reciprocal pivots. U of the last node, unused, carries what the right front leaves at D_m.
-// Factors::spent_lu are L_k\U_k and Y_k only, one behind the other, and after the last node two blocks of what the fronts leave for the middle.
-// Factors::ldlt are L_k\Delta_k and X_k, one behind the other; the X of the middle node, unused, carries what the right front leaves at D_m.
+// Factors::spent_lu are U_k, as far as its packs hold entries on or above the diagonal, and Y_k, one behind the other; after the last node blocks
+// that belong to the middle one: L\U, X of its neighbours and what the right front leaves. Factors::ldlt are L_k\Delta_k and X_k, one behind the
+// other; the X of the middle node, unused, carries what the right front leaves at D_m.
 #pragma once
 
 #include <limits>
@@ -43,7 +44,7 @@ enum class Front { left, right, both };
 /// What an elimination leaves.
 enum class Factors {
   lu,        // for any right-hand side
-  spent_lu,  // where b was reduced with it: what its own backward substitution reads, two thirds
+  spent_lu,  // where b was reduced with it: what its own backward substitution reads, 0.56 to two thirds
   ldlt,      // of a symmetric matrix, for any right-hand side: two thirds as well
 };
 

@@ -79,7 +79,8 @@ struct Watch {
 template <int B, Factors F>
 struct Node {
   static constexpr bool symmetric = F == Factors::ldlt;
-  typename Panel<B, 2>::Multiplier lower[B], x[B];  // columns of L_k, zero down to the diagonal, and of X_k
+  static constexpr bool upper_by_itself = F == Factors::spent_lu;  // but for the middle node
+  typename Panel<B, 2>::Multiplier lower[B], x[B];                 // columns of L_k, zero down to the diagonal, and of X_k
   alignas(32) double worked_lower[symmetric ? B * B : 1], worked_x[symmetric ? B * B : 1];
   Watch<B> watch;
 
@@ -110,7 +111,7 @@ struct Node {
     if constexpr (HasNext) x[first] = c.scaled_column(0, reciprocal);
     if constexpr (second == B) {
       watch.note_pivot(p), d.template add_squares_to<rows>(watch.worked);
-      Pair::template store_columns<rows>(worked + B * first, with_reciprocal, with_reciprocal);
+      store_worked<P, HasNext>(worked, with_reciprocal, with_reciprocal);
       if (HasNext && column) Pair::store_columns(column + B * first, x[first], x[first]);
     } else {
       const double l = d.at(second, 0), u = symmetric ? l : d.at(first, 1);
@@ -120,7 +121,7 @@ struct Node {
       if constexpr (symmetric && second + 1 < B) d.template store<rows>(worked_lower + B * first);
       const auto b = d.scaled_column(1, second_reciprocal);
       lower[second] = Pair::template zero_above<second + 1>(b);
-      Pair::template store_columns<rows>(worked + B * first, with_reciprocal, Pair::template with_entry<second>(b, second_reciprocal));
+      store_worked<P, HasNext>(worked, with_reciprocal, Pair::template with_entry<second>(b, second_reciprocal));
       watch.note_pivots(p, determinant * reciprocal);
       if constexpr (HasNext) {
         c.subtract_from_second(x[first], u);
@@ -129,6 +130,15 @@ struct Node {
       }
     }
     if constexpr (HasNext && symmetric) c.add_squares_to(watch.worked), c.store(worked_x + B * first);
+  }
+
+ private:
+  template <int P, bool HasNext, class Multiplier>
+  static HAWSER_INLINE void store_worked(double* block, const Multiplier& first, const Multiplier& second) {
+    if constexpr (HasNext && upper_by_itself)
+      PairOf<B, P>::template store_upper<P>(block, first, second);
+    else
+      PairOf<B, P>::template store_columns<from<P>>(block + 2 * B * P, first, second);
   }
 };
 
@@ -152,7 +162,7 @@ struct Elimination {
     values = run.values, next_values = inwards<Side>(values, 3 * block);
     b = chain_b ? chain_b + static_cast<long>(B) * k : nullptr, next_b = chain_b ? b + towards_middle * B : nullptr;
     diagonal = At::in_place ? factors : waiting, next_diagonal = At::in_place ? inwards<Side>(factors, At::node) : waiting;
-    column = At::column_kept ? factors + At::template column<Side> : nullptr;
+    column = !At::spent ? factors + At::template column<Side> : nullptr;
     if (run.first == 0) run.given = take_over(values, diagonal);
     if (run.first > 0 && !At::in_place) copy(factors, waiting);
     node.watch.go_on(run.given);
@@ -168,8 +178,8 @@ struct Elimination {
   HAWSER_INLINE void meet(int nodes) {
     static constexpr double nothing[B * B] = {};
     if constexpr (Side == Front::right) next_values = nothing, next_diagonal = first_factors + At::left_at_middle(nodes);
-    if constexpr (Side == Front::left && !At::in_place) next_diagonal = first_factors + At::at(nodes / 2);
-    if constexpr (!At::column_kept) column = first_factors + (Side == Front::left ? At::left_column(nodes) : At::right_column(nodes));
+    if constexpr (Side == Front::left && !At::in_place) next_diagonal = first_factors + At::middle(nodes);
+    if constexpr (At::spent) column = first_factors + (Side == Front::left ? At::left_column(nodes) : At::right_column(nodes));
     next_b = aside;
   }
 
@@ -219,7 +229,7 @@ struct Elimination {
     values = inwards<Side>(values, 3 * block), next_values = inwards<Side>(next_values, 3 * block);
     factors = inwards<Side>(factors, At::node);
     if (At::in_place) diagonal = factors, next_diagonal = inwards<Side>(factors, At::node);
-    if (At::column_kept) column = factors + At::template column<Side>;
+    if (!At::spent) column = factors + At::template column<Side>;
   }
   HAWSER_INLINE void eliminate_node() {
     for_each_pair<B>([&] HAWSER_PAIR { reduce<pair.value>(); });
@@ -290,7 +300,7 @@ void eliminate_runs_of(int nodes, FrontRun& left, FrontRun& right, double* facto
 
 template <int B, Factors F>
 void factorize_middle_node(int nodes, const double* values, double* factors, PivotWatch& watch) {
-  double* middle = factors + Layout<B, F>::at(nodes / 2);
+  double* middle = factors + Layout<B, F>::middle(nodes);
   const double* from_right = factors + Layout<B, F>::left_at_middle(nodes);
   Node<B, F> node;
   node.watch.start();
@@ -333,17 +343,19 @@ template <Factors F>
 struct Form {
   static constexpr Factors value = F;
 };
+/// f(Index<block>, known).
+template <class Known, class Function>
+void with_block(int block, Known known, Function f) {
+  block == 3 ? f(Index<3>{}, known) : block == 6 ? f(Index<6>{}, known) : f(Index<7>{}, known);
+}
 /// f(Index<block>, Form<form>).
 template <class Function>
 void with_kept(int block, Factors form, Function f) {
-  const auto with_block = [&](auto known) { block == 3 ? f(Index<3>{}, known) : block == 6 ? f(Index<6>{}, known) : f(Index<7>{}, known); };
-  form == Factors::ldlt ? with_block(Form<Factors::ldlt>{}) : with_block(Form<Factors::lu>{});
+  form == Factors::ldlt ? with_block(block, Form<Factors::ldlt>{}, f) : with_block(block, Form<Factors::lu>{}, f);
 }
 template <class Function>
 void with_any(int block, Factors form, Function f) {
-  if (form != Factors::spent_lu) return with_kept(block, form, f);
-  constexpr Form<Factors::spent_lu> spent;
-  block == 3 ? f(Index<3>{}, spent) : block == 6 ? f(Index<6>{}, spent) : f(Index<7>{}, spent);
+  form == Factors::spent_lu ? with_block(block, Form<Factors::spent_lu>{}, f) : with_kept(block, form, f);
 }
 
 void factorize(int block, int nodes, Factors form, const double* values, double* factors, Front front, PivotWatch& watch) {

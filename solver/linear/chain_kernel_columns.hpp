@@ -19,6 +19,9 @@ struct ColumnwisePanel {
 
   /// Where entry (i, j) of a block of factors lies, and its column j.
   static constexpr int place(int i, int j) { return B * j + i; }
+  /// Entry (i, j), i <= j, of U_k stored by itself, and the room it takes.
+  static constexpr int upper_place(int i, int j) { return place(i, j); }
+  static constexpr int upper_size = B * B;
   static HAWSER_INLINE Column<B> factor_column(const double* block, int j) {
     Column<B> c;
     c.load(block + B * j);
@@ -88,6 +91,10 @@ struct ColumnwisePanel {
     first.template store<From>(p);
     if constexpr (Columns == 2) second.template store<From>(p + B);
   }
+  template <int P>
+  static HAWSER_INLINE void store_upper(double* block, const Multiplier& first, const Multiplier& second) {
+    store_columns(block + 2 * B * P, first, second);
+  }
   static HAWSER_INLINE void subtract(Column<B>& c, const Multiplier& m, double u) { c.subtract(m, u); }
 
   /// y_j -= z . column j of a block of factors.
@@ -111,6 +118,9 @@ struct PairOfSix {
   Doubles first, second, tails;
 
   static constexpr int place(int i, int j) { return 12 * (j / 2) + (i < 4 ? 4 * (j % 2) + i : 2 * (j % 2) + i + 4); }
+  // Of the columns of U_k, in pairs: rows 0 and 1, rows 0 to 3, all rows.
+  static constexpr int upper_place(int i, int j) { return j < 2 ? 2 * j + i : j < 4 ? 4 * (j - 1) + i : place(i, j) - 12; }
+  static constexpr int upper_size = 24;
   static HAWSER_INLINE Column<6> factor_column(const double* block, int j) {
     Column<6> c;
     c.load_parts(block + place(0, j), block + place(4, j));
@@ -189,6 +199,13 @@ struct PairOfSix {
   static HAWSER_INLINE void store_columns(double* p, const Multiplier& a, const Multiplier& b) {
     if constexpr (From < 4) Pack<4>{a.head}.store(p), Pack<4>{b.head}.store(p + 4);
     Pack<4>{select<12>(a.tail, b.tail)}.store(p + 8);
+  }
+  template <int P>
+  static HAWSER_INLINE void store_upper(double* block, const Multiplier& a, const Multiplier& b) {
+    double* p = block + upper_place(0, 2 * P);
+    if constexpr (P == 0) Pack<4>{__builtin_shufflevector(a.head, b.head, 0, 1, 4, 5)}.store(p);
+    if constexpr (P == 1) Pack<4>{a.head}.store(p), Pack<4>{b.head}.store(p + 4);
+    if constexpr (P == 2) store_columns(p, a, b);
   }
   static HAWSER_INLINE void subtract(Column<6>& c, const Multiplier& m, double u) {
     c.head.v -= m.head * u, c.tail.head.v -= __builtin_shufflevector(m.tail, m.tail, 0, 1) * u;

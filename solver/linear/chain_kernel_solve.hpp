@@ -28,18 +28,27 @@ HAWSER_INLINE T* inwards(T* p, long n) {
 // Where factors lie (chain_kernel.hpp): places in the chain, and from a node's D.
 template <int B, Factors F>
 struct Layout {
-  static constexpr bool symmetric = F == Factors::ldlt;
-  static constexpr bool column_kept = F != Factors::spent_lu;  // X
-  static constexpr bool in_place = F == Factors::lu;           // what is left of D_k waits where L_k\U_k will be
-  static constexpr int block = B * B, node = in_place ? 3 * block : 2 * block;
+  static constexpr bool symmetric = F == Factors::ldlt, spent = F == Factors::spent_lu;
+  static constexpr bool in_place = F == Factors::lu;  // what is left of D_k waits where L_k\U_k will be
+  static constexpr int block = B * B, upper = Panel<B, 2>::upper_size, node = in_place ? 3 * block : symmetric ? 2 * block : upper + block;
   static constexpr long at(int k) { return static_cast<long>(node) * k; }
-  static constexpr long left_at_middle(int nodes) { return in_place ? at(nodes - 1) + block : symmetric ? at(nodes / 2) + block : at(nodes); }
+  // L\U of the middle node is needed whole.
+  static constexpr bool middle_apart = spent && upper < block;
+  static constexpr long middle(int nodes) { return at(middle_apart ? nodes : nodes / 2); }
+  static constexpr long behind(int nodes) { return at(nodes) + (middle_apart ? block : 0); }
+  static constexpr long left_at_middle(int nodes) {
+    return in_place ? at(nodes - 1) + block : symmetric ? at(nodes / 2) + block : behind(nodes) + 2 * block;
+  }
   // X of the nodes beside the middle one.
-  static constexpr long left_column(int nodes) { return column_kept ? at(nodes / 2) - block : at(nodes) + block; }
-  static constexpr long right_column(int nodes) { return symmetric ? at(nodes / 2 + 1) + block : at(nodes / 2) + block; }
+  static constexpr long left_column(int nodes) { return spent ? behind(nodes) : at(nodes / 2) - block; }
+  static constexpr long right_column(int nodes) {
+    return spent ? behind(nodes) + block : symmetric ? at(nodes / 2 + 1) + block : at(nodes / 2) + block;
+  }
 
   template <Front Side>
-  static constexpr int row = in_place&& Side == Front::right ? -block : block;  // Y
+  static constexpr int row = spent                             ? upper
+                             : in_place&& Side == Front::right ? -block
+                                                               : block;  // Y
   template <Front Side>
   static constexpr int column = symmetric              ? block
                                 : Side == Front::right ? -2 * block
@@ -63,10 +72,13 @@ HAWSER_INLINE void solve_lower(const double* diagonal, double* z) {
   HAWSER_UNROLL for (int j = 0; j < B; ++j) { HAWSER_UNROLL for (int i = j + 1; i < B; ++i) z[i] -= diagonal[Panel<B, 2>::place(i, j)] * z[j]; }
 }
 
-template <int B>
+template <int B, bool ByItself>
 HAWSER_INLINE void solve_upper(const double* diagonal, double* z) {
-  HAWSER_UNROLL for (int j = B - 1; j > 0; --j) { HAWSER_UNROLL for (int i = 0; i < j; ++i) z[i] -= diagonal[Panel<B, 2>::place(i, j)] * z[j]; }
-  HAWSER_UNROLL for (int j = 0; j < B; ++j) z[j] *= diagonal[Panel<B, 2>::place(j, j)];
+  const auto u = [&](int i, int j) __attribute__((always_inline)) {
+    return diagonal[ByItself ? Panel<B, 2>::upper_place(i, j) : Panel<B, 2>::place(i, j)];
+  };
+  HAWSER_UNROLL for (int j = B - 1; j > 0; --j) { HAWSER_UNROLL for (int i = 0; i < j; ++i) z[i] -= u(i, j) * z[j]; }
+  HAWSER_UNROLL for (int j = 0; j < B; ++j) z[j] *= u(j, j);
 }
 
 // The two factors of Delta L^T: rows divided by pivots, then the columns of L again.
@@ -121,7 +133,7 @@ struct Substitution {
       c.load(b);
       subtract_product<B>(c, diagonal + At::template row<Side>, z);
       HAWSER_UNROLL for (int i = 0; i < B; ++i) z[i] = c.at(i);
-      solve_upper<B>(diagonal, z);
+      solve_upper<B, At::spent>(diagonal, z);
     }
     HAWSER_UNROLL for (int i = 0; i < B; ++i) b[i] = z[i];
     fetch_ahead(-towards_middle);
@@ -161,7 +173,7 @@ void forward_runs(int nodes, FrontRun left_run, FrontRun right_run, const double
 template <int B, Factors F>
 void solve_middle_node(int nodes, const double* factors, double* b) {
   using At = Layout<B, F>;
-  const double* diagonal = factors + At::at(nodes / 2);
+  const double* diagonal = factors + At::middle(nodes);
   b += static_cast<long>(B) * (nodes / 2);
   Column<B> c;
   c.load(b);
@@ -172,7 +184,7 @@ void solve_middle_node(int nodes, const double* factors, double* b) {
   if constexpr (At::symmetric)
     divide_by_pivots<B>(diagonal, b), solve_lower_transposed<B>(diagonal, b);
   else
-    solve_upper<B>(diagonal, b);
+    solve_upper<B, false>(diagonal, b);
 }
 
 template <int B, Front Side, Factors F>

@@ -76,7 +76,6 @@ GeneralizedAlpha::GeneralizedAlpha(const System& system, LinearSolver& solver, c
       change_(system.unknowns()),
       residual_(system.unknowns()),
       increment_(system.unknowns()),
-      condensed_(system.dofs()),
       predicted_(system.prescribed().size()) {
   trial_.q.resize(system.unknowns());
   trial_.v.resize(system.unknowns());
@@ -270,14 +269,14 @@ void GeneralizedAlpha::follow_prescribed(const TangentWeights& weights) {
 /// part: Newton is then a modified one.
 StepStatus GeneralizedAlpha::linearize(const TangentWeights& weights, const TangentFloor& floor, StepReport& report) {
   factors_.valid = false;
-  FactorReport factors = system_.linearize(trial_, weights, floor, solver_, residual_, tangent_, condensed_);
+  FactorReport factors = system_.linearize(trial_, weights, floor, solver_, residual_, tangent_, condensed());
   ++report.residuals;
   ++report.factorizations;
   if (factors.status == FactorStatus::not_applicable) {
     tangent_.symmetrize();
     factors = solver_.factorize(tangent_);
     if (factors.status == FactorStatus::ok) {
-      solver_.solve(condensed_);
+      solver_.solve(condensed());
     }
     report.modified_newton = true;
     ++report.factorizations;
@@ -286,7 +285,7 @@ StepStatus GeneralizedAlpha::linearize(const TangentWeights& weights, const Tang
     report.worst = factors.failed_unknown;
     return StepStatus::singular;
   }
-  system_.expand(tangent_, condensed_, increment_);
+  system_.expand(tangent_, condensed(), increment_);
   factors_.valid = !report.modified_newton;
   factors_.weights = weights;
   factors_.floor = floor;
@@ -300,9 +299,9 @@ void GeneralizedAlpha::evaluate(StepReport& report) {
 
 /// increment_ from residual_ with the factors in hand.
 void GeneralizedAlpha::solve() {
-  system_.reduce(tangent_, residual_, condensed_);
-  solver_.solve(condensed_);
-  system_.expand(tangent_, condensed_, increment_);
+  system_.reduce(tangent_, residual_, condensed());
+  solver_.solve(condensed());
+  system_.expand(tangent_, condensed(), increment_);
 }
 
 /// Projects residual_ and measures it: the force that must vanish and the one to compare it with [N].

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "solver/bordered_solver.hpp"
@@ -100,6 +101,7 @@ class GeneralizedAlpha {
   void evaluate(StepReport& report);
   StepStatus linearize(const TangentWeights& weights, const TangentFloor& floor, StepReport& report);
   void solve();
+  std::span<double> condensed() { return {increment_.data(), system_.dofs()}; }  // solved in the place of the increment
   void move(double factor, const TangentWeights& weights);
   Measure measure(StepReport& report);
   int allowed_iterations(const StepReport& report) const;
@@ -117,7 +119,7 @@ class GeneralizedAlpha {
   State trial_;
   std::vector<double> auxiliary_, rebased_;  // a_{n+1} after a step; a_n as the step in progress sees it
   std::vector<double> change_;               // of qdd in the last accepted step
-  std::vector<double> residual_, increment_, condensed_;
+  std::vector<double> residual_, increment_;
   std::vector<std::array<double, 3>> predicted_;  // position, velocity, acceleration of the prescribed unknowns
 };
 

@@ -67,6 +67,12 @@ TEST_P(AssemblerOf, ResidualIsTheSumOfItsElements) {
   expect_sum_of_elements(model, random_state(model, 1));
 }
 
+// Within a section panels read the properties of the one before them.
+TEST_P(AssemblerOf, ResidualIsTheSumOfItsElementsInSectionsOfManyPanels) {
+  const Model model = build_model(scene(700));
+  expect_sum_of_elements(model, random_state(model, 3));
+}
+
 // The sweep looks at those rows of a profile that a panel can reach, an element by itself at all of them.
 TEST_P(AssemblerOf, ResidualIsTheSumOfItsElementsInAProfileOfManyRows) {
   Scene many = scene();
