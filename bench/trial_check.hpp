@@ -3,6 +3,9 @@
 //   equations    the residual, assembled anew, is below 1e-10 of the largest reaction (or of what rounding leaves)
 //   stability    no part of the line is compressed, or the elastic tangent has no negative pivot, or all eigenvalues of the whole tangent have
 //                positive real parts (trial_spectrum.hpp)
+//   bending      no element that is too stiff to be turned by the forces, EI > F h^2, is squeezed to half its length anywhere: where r' passes
+//   through
+//                zero a line turns back and shows no curvature
 //   balance      reactions + weight + bodies + drag + bed = 0, the loads integrated here along the shape
 //   hubs         the end forces of the lines that meet at a free point and the load there = 0
 //   catenary     closed form: span under the computed end force, and the minimum of the energy from its dual,
@@ -22,6 +25,7 @@
 #include "assembly/assembler.hpp"
 #include "assembly/observables.hpp"
 #include "assembly/seabed.hpp"
+#include "assembly/seabed_bodies.hpp"
 #include "bench/trial_networks.hpp"
 #include "bench/trial_scenes.hpp"
 #include "bench/trial_spectrum.hpp"
@@ -45,7 +49,7 @@ class TrialCheck {
 
   /// What is wrong with the answer; `loose`: of one that the solver says it took to 1e-6 only.
   std::optional<std::string> complaint(bool loose = false) const {
-    for (const auto& check : {equations(loose ? 1e-6 : 1e-10), stability(), balance(), hubs(loose ? 1e-6 : 1e-10), closed_form()})
+    for (const auto& check : {equations(loose ? 1e-6 : 1e-10), stability(), bending(), balance(), hubs(loose ? 1e-6 : 1e-10), closed_form()})
       if (check) return check;
     return std::nullopt;
   }
@@ -74,6 +78,19 @@ class TrialCheck {
     return fmt::format("unstable: {} negative pivots, slowest decay {:.2g} N/m2", pivots, slowest);
   }
 
+  Complaint bending() const {
+    for (int line = 0; line < static_cast<int>(model_.lines.size()); ++line) {
+      for (int i = 0; i < model_.lines[line].elements; ++i) {
+        const int e = model_.lines[line].first_element + i;
+        if (model_.element.EI[e] <= reference_ * std::pow(model_.element.length[e], 2)) continue;
+        for (int k = 0; k <= 8; ++k)
+          if (const double stretch = place(line, i, k / 8.0).second.norm(); stretch < 0.5)
+            return fmt::format("turns back in element {} of {}: stretch {:.2g}", i + 1, model_.lines[line].name, stretch);
+      }
+    }
+    return std::nullopt;
+  }
+
   Complaint balance() const {
     const Vec3 fine = loads(20), coarse = loads(10);
     const double error = (reactions_ + fine).norm();
@@ -95,7 +112,8 @@ class TrialCheck {
     for (const Hub& hub : model_.hubs) {
       Vec3 force = points[hub.point].force;
       for (const Body& body : model_.bodies)
-        if (body.line == hub.ends[0].line && body.node == hub.ends[0].node) force += body_force(model_, body, points[hub.point].position.z());
+        if (body.line == hub.ends[0].line && body.node == hub.ends[0].node)
+          force += body_force(model_, body, points[hub.point].position.z()) + points[hub.point].bed;
       if (force.norm() > allowed) return fmt::format("\"{}\" out of balance by {:.2e} N", model_.points[hub.point].name, force.norm());
       for (const Support& end : hub.ends)
         if (node(end.line, end.node, 0) != points[hub.point].position) return fmt::format("lines apart at \"{}\"", model_.points[hub.point].name);
@@ -114,7 +132,7 @@ class TrialCheck {
   Vec3 loads(int points) const {
     Vec3 sum = Vec3::Zero();
     drag_ = 0.0;
-    for (const Body& body : model_.bodies) sum += body_force(model_, body, node(body.line, body.node, 0).z());
+    for (const Body& body : model_.bodies) sum += body_force(model_, body, node(body.line, body.node, 0).z()) + seabed_force(model_, state_, body);
     for (const SpreadLoad& spread : model_.spread_loads) sum += spread.share * spread.force(0.0);
     for (int line = 0; line < static_cast<int>(model_.lines.size()); ++line)
       for (int i = 0; i < model_.lines[line].elements; ++i) sum += loads_on(line, i, points);

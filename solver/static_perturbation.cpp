@@ -53,13 +53,14 @@ bool folded(const Model& model, const State& state) {
 
 namespace {
 
-/// An element may turn sharply next to a clamp, and left of a joint it ends with a slope of its own.
-bool bent_by_force(const Model& model, int line, int element) {
-  const Line& l = model.lines[line];
-  return std::any_of(model.joints.begin(), model.joints.end(), [&](const Joint& joint) { return joint.element == l.first_element + element; }) ||
-         std::any_of(model.supports.begin(), model.supports.end(), [&](const Support& support) {
-           return support.line == line && support.clamped && (support.node == element || support.node == element + 1);
-         });
+/// A limp element may turn sharply next to a clamp, and left of a joint it ends with a slope of its own.
+bool at_joint(const Model& model, int element) {
+  return std::any_of(model.joints.begin(), model.joints.end(), [&](const Joint& joint) { return joint.element == element; });
+}
+bool at_clamp(const Model& model, int line, int element) {
+  return std::any_of(model.supports.begin(), model.supports.end(), [&](const Support& support) {
+    return support.line == line && support.clamped && (support.node == element || support.node == element + 1);
+  });
 }
 
 }  // namespace
@@ -74,9 +75,10 @@ std::optional<Knot> find_knot(const Model& model, const State& state) {
     for (int i = 0; i < line.elements; ++i) {
       const int e = line.first_element + i;
       const Vec3 a = part(i, 3), b = part(i + 1, 3), middle = 1.5 / model.element.length[e] * (part(i + 1, 0) - part(i, 0)) - 0.25 * (a + b);
-      const double tension = model.element.EA[e] * (std::min(a.norm(), b.norm()) - 1.0), load = 1e6 * model.element.minimum_tension[e];
-      if (tension <= taut * load || (a.dot(middle) >= 0.0 && middle.dot(b) >= 0.0)) continue;
-      if (!bent_by_force(model, index, i)) return Knot{index, line.s[i], tension};
+      if ((a.dot(middle) >= 0.0 && middle.dot(b) >= 0.0) || at_joint(model, e)) continue;
+      const double tension = model.element.EA[e] * (std::max(a.norm(), b.norm()) - 1.0), load = 1e6 * model.element.minimum_tension[e];
+      const bool stiff = model.element.EI[e] > (std::abs(tension) + load) * std::pow(model.element.length[e], 2);
+      if (stiff || (tension > taut * load && !at_clamp(model, index, i))) return Knot{index, line.s[i], tension};
     }
   }
   return std::nullopt;

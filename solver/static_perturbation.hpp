@@ -14,8 +14,10 @@ void bow_sideways(const Model& model, State& state);
 /// A line turns back within an element.
 bool folded(const Model& model, const State& state);
 
-/// A place where the line turns back within an element although it is taut there: a loop that the mesh cannot follow. (A line that hangs in two
-/// legs folds too, but carries no more there than the weight of some elements.)
+/// A place where the line turns back within an element although it is taut there, a loop that the mesh cannot follow, or too stiff to be turned by
+/// what it carries: r' passes through zero there, where no curvature is seen. (A line that hangs in two legs folds too, but carries no more there
+/// than the weight of some elements.) Tension and load T, q h on an element of length h bend it by less than two radians where EI > (T + q h) h^2,
+/// for no curvature is larger than 2 sqrt(T/EI); to turn back takes more than pi.
 struct Knot {
   int line = 0;
   double s = 0.0, tension = 0.0;  // m, N
