@@ -37,7 +37,7 @@ constexpr double creep_enough = 10.0;                 // tolerances
 constexpr double creep_resistance = 100.0;            // of load/length^2: the load moves a line by a hundredth of its length in the first step
 constexpr double same_place = 1e-4;                   // of the length, of two equilibria
 constexpr int rounds_apart = 2;                       // of lines solved one by one
-constexpr double loose_slips[] = {10.0, 3e-2, 1e-3};  // of the longest line: where the branches in the slip begin
+constexpr double loose_slips[] = {10.0, 1e-2, 1e-3};  // of the longest line: where the branches in the slip begin
 
 /// How one Newton is run.
 struct Attempt {
@@ -45,6 +45,7 @@ struct Attempt {
   bool guarded = false;
   bool on_the_way = false;  // of a continuation: not so exact, and not reported
   int iterations = unfloored_iterations;
+  bool by_tangent = false;  // its result is certified by the tangent alone, however small its compression is
 };
 
 /// A state that was not accepted.
@@ -226,7 +227,7 @@ class StaticSolver {
     const NewtonReport result = creep(system, motion);
     record(system, result);
     report_.converged = result.converged() && enough <= 1.0;
-    if (report_.converged) certify(model_, system);
+    if (report_.converged) certify(model_, system, false);
     report(fmt::format("{}: {} after {} factorizations, residual {:.2g} N", name, result.converged() ? "at rest" : "in motion", result.factorizations,
                        result.residual));
     if (report_.converged && !report_.stable) remember(name, explain_failure(model_, state_, system, result, report_));
@@ -235,9 +236,8 @@ class StaticSolver {
 
   /// Along branches of equilibria from beds that hold the line later than the real one (static_slip.hpp).
   bool by_slip() {
-    if (!model_.seabed || !model_.seabed->law.rubs()) return false;
     for (const double share : loose_slips) {
-      if (exhausted()) return false;
+      if (exhausted() || !model_.seabed || !model_.seabed->law.rubs()) return false;
       const SlipBranch branch = follow_slip(model_, options_, share, options_.max_iterations - report_.iterations);
       report_.iterations += branch.factorizations;
       report(fmt::format("branch in the slip from {:.2g} m: {}, {} folds, {} factorizations", branch.first,
@@ -245,7 +245,9 @@ class StaticSolver {
                          : branch.started ? fmt::format("no way on at {:.2g} m", branch.least)
                                           : "no equilibrium there",
                          branch.folds, branch.factorizations));
-      if (branch.reached && (accepted("Newton from there", branch.state, unfloored()) || stable_with_all_loads())) return true;
+      if (!branch.reached) continue;
+      state_ = branch.state;  // unlike motion a branch also leads to what nothing comes to rest in
+      if ((converges(assembler_, "Newton from there", {.by_tangent = true}) && report_.stable) || stable_with_all_loads()) return true;
     }
     return false;
   }
@@ -302,7 +304,7 @@ class StaticSolver {
     newton_options.inexact_matrix = !linear_->takes_unsymmetric() && unsymmetric();
     const NewtonReport result = attempt.guarded ? guarded_newton(system, newton_options) : newton(system, newton_options);
     record(system, result);
-    if (result.converged()) certify(assembler.model(), system);
+    if (result.converged()) certify(assembler.model(), system, attempt.by_tangent);
     if (attempt.on_the_way) return result.converged();
     const std::string outcome = !result.converged() ? "not converged" : report_.stable ? "converged" : "converged, compressed or knotted";
     report(fmt::format("{}: {} after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, result.factorizations, report_.residual,
@@ -332,13 +334,11 @@ class StaticSolver {
   /// What was found, with the account of all stages.
   void take(const Found& found) {
     state_ = found.state;
-    std::vector<std::string> stages = std::move(report_.stages);
-    const int iterations = report_.iterations;
-    const bool modified = report_.modified_newton;
-    report_ = found.report;
-    report_.stages = std::move(stages);
-    report_.iterations = iterations;
-    report_.modified_newton = modified;
+    StaticReport taken = found.report;
+    taken.stages = std::move(report_.stages);
+    taken.iterations = report_.iterations;
+    taken.modified_newton = report_.modified_newton;
+    report_ = std::move(taken);
   }
 
   void report(const std::string& stage) {
@@ -361,8 +361,8 @@ class StaticSolver {
   }
 
   /// Stable: no knot, and no compression that could buckle a line, or no negative pivot of the exact elastic tangent.
-  void certify(const Model& model, StaticSystem& system) {
-    const bool tension = free_of_compression(model, state_, system.roundoff());
+  void certify(const Model& model, StaticSystem& system, bool by_tangent) {
+    const bool tension = !by_tangent && free_of_compression(model, state_, system.roundoff());
     report_.negative_pivots = tension ? 0 : negative_pivots_of_elastic_tangent(model, state_);
     report_.stable = report_.negative_pivots == 0 && !find_knot(model, state_);
   }
