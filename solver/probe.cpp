@@ -8,6 +8,7 @@
 #include <random>
 
 #include "assembly/observables.hpp"
+#include "solver/static_perturbation.hpp"
 
 namespace hawser {
 namespace {
@@ -164,18 +165,6 @@ class Starts {
   Random random_;
   int turn_ = 0;
 };
-
-double distance(const Model& model, const State& a, const State& b) {
-  double largest = 0.0, longest = 0.0;
-  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
-    longest = std::max(longest, model.lines[line].length);
-    for (int i = 0; i < model.lines[line].nodes; ++i) {
-      const std::size_t r = model.dof(line, i);
-      largest = std::max(largest, (Eigen::Map<const Vec3>(&a.q[r]) - Eigen::Map<const Vec3>(&b.q[r])).norm());
-    }
-  }
-  return largest / longest;
-}
 
 }  // namespace
 

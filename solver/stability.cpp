@@ -246,6 +246,7 @@ std::optional<double> slowest_decay(const Model& model, const State& state, doub
     const Krylov krylov(assembler, state, sigma);
     for (const std::complex<double>& value : krylov.values()) slowest = std::min(slowest.value_or(HUGE_VAL), value.real());
     if (!slowest) return std::nullopt;
+    if (*slowest < 0.0) break;
   }
   return slowest;
 }

@@ -11,6 +11,8 @@
 namespace hawser {
 namespace {
 
+constexpr const char* loosen_the_bed = "take a larger seabed slip, shorter elements on the bed, or less slack there";
+
 /// Ends held, no load at all and longer than its chord: every shape of that length is in equilibrium.
 bool shapeless(const Model& model, int index) {
   const Line& line = model.lines[index];
@@ -112,8 +114,13 @@ Failure explain_failure(const Model& model, const State& state, const StaticSyst
                                report.negative_pivots, least.value);
     failure.line = model.lines[least.line].name;
     failure.s = least.s;
-    failure.cause = "a straight compressed line satisfies the equations but would buckle at once";
-    failure.remedy = "start from the catenary (--start catenary), offset an end sideways, or give the line type an EI so that it can carry the load";
+    const bool rubs = model.seabed && model.seabed->law.rubs();
+    failure.cause =
+        rubs ? "friction pushes the slack line together where it lies; it gives way at the least push, and no motion came to rest elsewhere"
+             : "a straight compressed line satisfies the equations but would buckle at once";
+    failure.remedy =
+        rubs ? loosen_the_bed
+             : "start from the catenary (--start catenary), offset an end sideways, or give the line type an EI so that it can carry the load";
     return failure;
   }
   const WorstNode worst = system.worst();
@@ -139,7 +146,7 @@ Failure explain_failure(const Model& model, const State& state, const StaticSyst
     failure.cause = likely_cause(model, least);
     failure.remedy =
         model.seabed && model.seabed->law.rubs()
-            ? "take a larger seabed slip, shorter elements on the bed, or less slack there"
+            ? loosen_the_bed
             : "give the line type a small EI, use more elements there, or solve first with less current or a shorter line and continue with --from";
   }
   return failure;

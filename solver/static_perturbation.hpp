@@ -27,4 +27,7 @@ std::optional<Knot> find_knot(const Model& model, const State& state);
 /// The straight start as a loop of about the right length: for lines that would hang in two legs side by side.
 State open_start(const Model& model);
 
+/// The largest distance of a node from where it is in the other state, of the longest line.
+double distance(const Model& model, const State& a, const State& b);
+
 }  // namespace hawser

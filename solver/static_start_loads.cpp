@@ -1,6 +1,8 @@
 #include "solver/static_start_loads.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hawser {
 
@@ -48,6 +50,16 @@ double load_scale(const Model& model, int line_index) {
   for (const SpreadLoad& spread : model.spread_loads)
     if (spread.line == line_index) sum += spread.share * spread.force(0.0).norm();
   return sum;
+}
+
+double largest_load(const Model& model) {
+  double largest = 0.0, buckling = 0.0;
+  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
+    largest = std::max(largest, load_scale(model, line));
+    const Line& l = model.lines[line];
+    buckling = std::max(buckling, model.element.EI[l.first_element] * std::pow(2.0 * std::numbers::pi / l.length, 2));
+  }
+  return largest > 0.0 ? largest : buckling;
 }
 
 }  // namespace hawser

@@ -28,4 +28,7 @@ LineLoads dry_loads(const Model& model, int line, double z);
 /// Upper estimate of the whole load on a line [N]: |weight| + |drag across the line| + |bodies|, in the fastest flow.
 double load_scale(const Model& model, int line);
 
+/// The scale of forces: the largest load of a line, or where nothing loads them what buckles one between clamps, (2 pi/L)^2 EI.
+double largest_load(const Model& model);
+
 }  // namespace hawser

@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
-#include "assembly/observables.hpp"
 #include "solver/relaxation.hpp"
 #include "solver/stability.hpp"
 #include "solver/static_continuation.hpp"
 #include "solver/static_failure.hpp"
 #include "solver/static_parts.hpp"
 #include "solver/static_perturbation.hpp"
+#include "solver/static_slip.hpp"
 #include "solver/static_start_loads.hpp"
 #include "solver/static_system.hpp"
 
@@ -35,20 +33,11 @@ constexpr double way_increment = 1e-5;     // of the length
 constexpr double relaxation_floor = 1e-2;  // of T_f
 constexpr int relaxation_steps = 1000;
 constexpr int creep_iterations = 2000;
-constexpr double creep_enough = 10.0;       // tolerances
-constexpr double creep_resistance = 100.0;  // of load/length^2: the load moves a line by a hundredth of its length in the first step
-constexpr int rounds_apart = 2;             // of lines solved one by one
-
-/// The scale of forces: the largest load of a line, or where nothing loads them what buckles one between clamps, (2 pi/L)^2 EI.
-double largest_load(const Model& model) {
-  double largest = 0.0, buckling = 0.0;
-  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
-    largest = std::max(largest, load_scale(model, line));
-    const Line& l = model.lines[line];
-    buckling = std::max(buckling, model.element.EI[l.first_element] * std::pow(2.0 * std::numbers::pi / l.length, 2));
-  }
-  return largest > 0.0 ? largest : buckling;
-}
+constexpr double creep_enough = 10.0;                 // tolerances
+constexpr double creep_resistance = 100.0;            // of load/length^2: the load moves a line by a hundredth of its length in the first step
+constexpr double same_place = 1e-4;                   // of the length, of two equilibria
+constexpr int rounds_apart = 2;                       // of lines solved one by one
+constexpr double loose_slips[] = {10.0, 1e-2, 1e-3};  // of the longest line: where the branches in the slip begin
 
 /// How one Newton is run.
 struct Attempt {
@@ -56,6 +45,14 @@ struct Attempt {
   bool guarded = false;
   bool on_the_way = false;  // of a continuation: not so exact, and not reported
   int iterations = unfloored_iterations;
+  bool by_tangent = false;  // its result is certified by the tangent alone, however small its compression is
+};
+
+/// A state that was not accepted.
+struct Found {
+  State state;
+  StaticReport report;
+  Failure failure;
 };
 
 /// One run of solve_static: stages, each a Newton and a certificate.
@@ -95,8 +92,8 @@ class StaticSolver {
     if (!model_.hubs.empty() && by_parts(start)) return true;
     if (!hangs && accepted("tension-floored Newton from the catenary", start, floored())) return true;
     if (by_relaxation(start) || stable_with_all_loads()) return true;
-    if (by_creep("where that left it", State(left_), creep_iterations / 2) || by_creep("the catenary", start, creep_iterations)) return true;
-    if (stable_with_all_loads()) return true;
+    if (by_creep("where that left it", State(left_), creep_iterations / 2) || stable_with_all_loads()) return true;
+    if (by_creep("the catenary", start, creep_iterations) || stable_with_all_loads() || by_slip()) return true;
     if (options_.tolerance > 0.0) return false;
     tolerance_ = loose_tolerance;
     increment_tolerance_ = loose_increment;
@@ -205,44 +202,73 @@ class StaticSolver {
     return comes_to_rest(assembler_, relaxation_steps, false) && report_.stable;
   }
 
-  /// Sinks to rest (creep.hpp); then Newton.
+  /// Sinks to rest (creep.hpp); then Newton, or, where directions that nothing holds lead that astray, creep to the tolerance itself.
   bool by_creep(const std::string& from, const State& start, int iterations) {
     if (exhausted() || start.q.empty()) return false;
     state_ = start;
+    const bool rests = creeps("creep from " + from, creep_enough, iterations);
+    const State rest = state_;
+    if (converges(assembler_, "Newton from where it came to rest", unfloored())) return report_.stable;
+    if (!rests || exhausted()) return false;
+    state_ = rest;
+    return creeps("creep on to the tolerance, where Newton is led away", 1.0, creep_iterations / 4) && report_.stable;
+  }
+
+  /// True where it came to rest to so many tolerances.
+  bool creeps(const std::string& name, double enough, int iterations) {
     const Model massive = with_unit_mass(model_);
     const Assembler assembler(massive, std::max(1, options_.threads));
     StaticSystem system(assembler, *linear_, tolerance_, HUGE_VAL, state_);
     CreepOptions motion;
     motion.length = longest_line(model_);
     motion.resistance = creep_resistance * load_ / (motion.length * motion.length);
-    motion.enough = creep_enough;
+    motion.enough = enough;
     motion.max_iterations = std::min(options_.max_iterations - report_.iterations, iterations);
     const NewtonReport result = creep(system, motion);
-    report_.iterations += result.factorizations;
-    report(fmt::format("creep from {}: {} after {} factorizations, residual {:.2g} N", from, result.converged() ? "at rest" : "in motion",
-                       result.factorizations, result.residual));
-    return converges(assembler_, "Newton from where it came to rest", unfloored()) && report_.stable;
+    record(system, result);
+    report_.converged = result.converged() && enough <= 1.0;
+    if (report_.converged) certify(model_, system, false);
+    report(fmt::format("{}: {} after {} factorizations, residual {:.2g} N", name, result.converged() ? "at rest" : "in motion", result.factorizations,
+                       result.residual));
+    if (report_.converged && !report_.stable) remember(name, explain_failure(model_, state_, system, result, report_));
+    return result.converged();
   }
 
-  /// The best equilibrium found is unstable without the loads that have no potential; with them it may well be stable (stability.hpp).
+  /// Along branches of equilibria from beds that hold the line later than the real one (static_slip.hpp).
+  bool by_slip() {
+    for (const double share : loose_slips) {
+      if (exhausted() || !model_.seabed || !model_.seabed->law.rubs()) return false;
+      const SlipBranch branch = follow_slip(model_, options_, share, options_.max_iterations - report_.iterations);
+      report_.iterations += branch.factorizations;
+      report(fmt::format("branch in the slip from {:.2g} m: {}, {} folds, {} factorizations", branch.first,
+                         branch.reached   ? "arrived"
+                         : branch.started ? fmt::format("no way on at {:.2g} m", branch.least)
+                                          : "no equilibrium there",
+                         branch.folds, branch.factorizations));
+      if (!branch.reached) continue;
+      state_ = branch.state;  // unlike motion a branch also leads to what nothing comes to rest in
+      if ((converges(assembler_, "Newton from there", {.by_tangent = true}) && report_.stable) || stable_with_all_loads()) return true;
+    }
+    return false;
+  }
+
+  /// Equilibria that are unstable without the loads that have no potential may be stable with them (stability.hpp): each is looked at once.
   bool stable_with_all_loads() {
-    if (best_.looked_at || !best_.report.converged || best_.report.negative_pivots == 0 || !unsymmetric()) return false;
-    best_.looked_at = true;
-    if (find_knot(model_, best_.state)) return false;
-    const double reference = best_.report.reference_force, neutral = neutral_stiffness(model_, reference);
-    const std::optional<StabilityMode> mode = softest_mode(model_, best_.state, reference);
-    const std::optional<double> slowest = slowest_decay(model_, best_.state, mode ? mode->stiffness : neutral);
-    if (!slowest || *slowest <= neutral) return false;
-    const StaticReport all = report_;
-    state_ = best_.state;
-    report_ = best_.report;
-    report_.stages = all.stages;
-    report_.iterations = all.iterations;
-    report_.modified_newton = all.modified_newton;
-    report_.stable = true;
-    report_.slowest_decay = slowest;
-    report(fmt::format("{}: stable with all loads, though not without drag and friction; slowest decay {:.2g} N/m2", best_.failure.stage, *slowest));
-    return true;
+    while (unsymmetric() && looked_at_ < unstable_.size()) {
+      const Found& found = unstable_[looked_at_++];
+      if (find_knot(model_, found.state)) continue;
+      const double reference = found.report.reference_force, neutral = neutral_stiffness(model_, reference);
+      const std::optional<StabilityMode> mode = softest_mode(model_, found.state, reference);
+      const std::optional<double> slowest = slowest_decay(model_, found.state, mode ? mode->stiffness : neutral);
+      if (!slowest || *slowest <= neutral) continue;
+      take(found);
+      report_.stable = true;
+      report_.slowest_decay = slowest;
+      report(
+          fmt::format("{}: stable with all loads, though not without drag and friction; slowest decay {:.2g} N/m2", found.failure.stage, *slowest));
+      return true;
+    }
+    return false;
   }
 
   /// Set in motion where it is until it comes to rest, then Newton; true at an equilibrium.
@@ -278,7 +304,7 @@ class StaticSolver {
     newton_options.inexact_matrix = !linear_->takes_unsymmetric() && unsymmetric();
     const NewtonReport result = attempt.guarded ? guarded_newton(system, newton_options) : newton(system, newton_options);
     record(system, result);
-    if (result.converged()) certify(assembler.model(), system);
+    if (result.converged()) certify(assembler.model(), system, attempt.by_tangent);
     if (attempt.on_the_way) return result.converged();
     const std::string outcome = !result.converged() ? "not converged" : report_.stable ? "converged" : "converged, compressed or knotted";
     report(fmt::format("{}: {} after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, result.factorizations, report_.residual,
@@ -287,24 +313,32 @@ class StaticSolver {
     return result.converged();
   }
 
-  /// The best of the states that were not accepted: a converged one, or else the one with the least residual.
-  void remember(const std::string& name, const Failure& failure) {
-    if (!best_.failure.what.empty() && std::pair(best_.report.converged, -best_.report.residual) >= std::pair(report_.converged, -report_.residual))
-      return;
-    best_ = {state_, report_, failure};
-    best_.failure.stage = name;
+  /// Of the states that were not accepted the best, a converged one or else the one with the least residual, and the unstable equilibria.
+  void remember(const std::string& name, Failure failure) {
+    failure.stage = name;
+    const auto same = [&](const Found& other) { return distance(model_, other.state, state_) <= same_place; };
+    if (report_.converged && report_.negative_pivots > 0 && std::none_of(unstable_.begin(), unstable_.end(), same))
+      unstable_.push_back({state_, report_, failure});
+    if (best_.failure.what.empty() || std::pair(best_.report.converged, -best_.report.residual) < std::pair(report_.converged, -report_.residual))
+      best_ = {state_, report_, failure};
   }
 
   void keep_best() {
-    const StaticReport all = report_;
     if (best_.failure.what.empty()) return;
-    state_ = std::move(best_.state);
-    report_ = best_.report;
-    report_.stages = all.stages;
-    report_.iterations = all.iterations;
-    report_.modified_newton = all.modified_newton;
+    take(best_);
     report_.failure = best_.failure;
-    report_.failure.kept = fmt::format("the state of this stage, the best of {}; {} factorizations in all", all.stages.size(), all.iterations);
+    report_.failure.kept =
+        fmt::format("the state of this stage, the best of {}; {} factorizations in all", report_.stages.size(), report_.iterations);
+  }
+
+  /// What was found, with the account of all stages.
+  void take(const Found& found) {
+    state_ = found.state;
+    StaticReport taken = found.report;
+    taken.stages = std::move(report_.stages);
+    taken.iterations = report_.iterations;
+    taken.modified_newton = report_.modified_newton;
+    report_ = std::move(taken);
   }
 
   void report(const std::string& stage) {
@@ -327,8 +361,8 @@ class StaticSolver {
   }
 
   /// Stable: no knot, and no compression that could buckle a line, or no negative pivot of the exact elastic tangent.
-  void certify(const Model& model, StaticSystem& system) {
-    const bool tension = free_of_compression(model, state_, system.roundoff());
+  void certify(const Model& model, StaticSystem& system, bool by_tangent) {
+    const bool tension = !by_tangent && free_of_compression(model, state_, system.roundoff());
     report_.negative_pivots = tension ? 0 : negative_pivots_of_elastic_tangent(model, state_);
     report_.stable = report_.negative_pivots == 0 && !find_knot(model, state_);
   }
@@ -343,12 +377,9 @@ class StaticSolver {
   double load_;  // N, of the line with the largest one
   bool limp_;    // some element has no bending stiffness
   double tolerance_, increment_tolerance_ = NewtonOptions{}.increment_tolerance;
-  struct {
-    State state;
-    StaticReport report;
-    Failure failure;
-    bool looked_at = false;  // by stable_with_all_loads
-  } best_;
+  Found best_;
+  std::vector<Found> unstable_;  // equilibria, looked at by stable_with_all_loads up to looked_at_
+  std::size_t looked_at_ = 0;
 };
 
 }  // namespace
@@ -364,28 +395,6 @@ StaticReport solve_static(const Assembler& assembler, const StaticOptions& optio
   report.converged = report.converged && report.stable;
   if (report.converged) report.failure = {};
   return report;
-}
-
-std::vector<double> estimate_static_error(const Scene& scene, const StaticOptions& options, const Model& model, const State& state) {
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> estimate(model.lines.size(), unknown);
-  const Model coarse = build_model(coarsened(scene));
-  const Assembler assembler(coarse, std::max(1, options.threads));
-  StaticOptions coarse_options = options;
-  coarse_options.start = StaticStart::catenary;
-  coarse_options.log = nullptr;
-  State coarse_state;
-  if (!solve_static(assembler, coarse_options, coarse_state).converged) return estimate;
-  for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
-    const double ratio = static_cast<double>(model.lines[line].elements) / coarse.lines[line].elements;
-    if (ratio <= 1.0) continue;
-    const LineResult fine = observe_line(model, state, line), rough = observe_line(coarse, coarse_state, line);
-    const double order = model.lines[line].family == Family::bar ? 2.0 : 4.0;
-    const double scale = std::max(fine.tension_from, fine.tension_to);
-    const double difference = std::max(std::abs(fine.tension_from - rough.tension_from), std::abs(fine.tension_to - rough.tension_to));
-    if (scale > 0.0) estimate[line] = difference / (scale * (std::pow(ratio, order) - 1.0));
-  }
-  return estimate;
 }
 
 }  // namespace hawser

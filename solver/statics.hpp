@@ -23,8 +23,8 @@ enum class StaticStart { catenary, straight, given };
 struct StaticOptions {
   StaticStart start = StaticStart::catenary;
   LinearSolverKind linear_solver = LinearSolverKind::automatic;
-  double tolerance = 0.0;     // relative residual (theory 6.1); 0: automatic
-  int max_iterations = 7000;  // factorizations, over all stages
+  double tolerance = 0.0;      // relative residual (theory 6.1); 0: automatic
+  int max_iterations = 12000;  // factorizations, over all stages
   int threads = 1;
   std::function<void(const std::string&)> log;  // one line per stage; may be empty
 };

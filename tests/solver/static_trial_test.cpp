@@ -57,7 +57,9 @@ TEST(StaticTrial, ScenesThatWereRefusedOnceAreSolved) {
       {"only creep ends at the last slope of a bare end", draw_trial, 1, 2830},
       {"a pipe on a slope in a current, stable with friction and drag only", draw_trial, 2, 797},
       {"a pipe laid across a current, stable with friction and drag only", draw_trial, 3, 4836},
+      {"directions of a bare end that nothing holds", draw_trial, 2, 1150},
       {"a network with a compressed line that drag holds", draw_network, 1, 335},
+      {"legs on a bed with friction: only the branch in the slip leads there", draw_network, 1, 997},
       {"a ring that folds in a current", draw_network, 1, 1283},
       {"a ring that folds in a current", draw_network, 1, 1395},
   };
