@@ -57,12 +57,6 @@ const char* describe(ContinuationEnd end) {
   return "";
 }
 
-/// Water moves past the lines: the loads have no potential, and the elastic tangent does not see every fold.
-bool flows(const Model& model) {
-  const bool drags = model.wet || std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.drag > 0.0; });
-  return drags && (model.current.fastest() > 0.0 || model.tow != Vec3::Zero());
-}
-
 /// Whether a push dies away. Drag has no potential: in a flow the whole tangent decides, and the elastic one only where that is singular.
 bool holds(const Model& model, const State& state, int negative_pivots, double reference_force) {
   if (!flows(model)) return negative_pivots == 0;

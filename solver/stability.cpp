@@ -211,6 +211,13 @@ void normalise(const Model& model, StabilityMode& mode) {
 
 }  // namespace
 
+bool flows(const Model& model) {
+  const bool drags = model.wet || std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.drag > 0.0; });
+  return drags && (model.current.fastest() > 0.0 || model.tow != Vec3::Zero());
+}
+
+bool has_potential(const Model& model) { return !flows(model) && !(model.seabed && (model.seabed->law.rubs() || !model.seabed->surface.level())); }
+
 double neutral_stiffness(const Model& model, double reference_force) { return neutral_share * reference_force / std::pow(longest_line(model), 2); }
 
 std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force) {
@@ -249,6 +256,13 @@ std::optional<double> slowest_decay(const Model& model, const State& state, doub
     if (*slowest < 0.0) break;
   }
   return slowest;
+}
+
+std::optional<double> decay_with_all_loads(const Model& model, const State& state, double reference_force) {
+  const double neutral = neutral_stiffness(model, reference_force);
+  const std::optional<StabilityMode> mode = softest_mode(model, state, reference_force);
+  const std::optional<double> slowest = slowest_decay(model, state, mode ? mode->stiffness : neutral);
+  return slowest && *slowest > neutral ? slowest : std::nullopt;
 }
 
 }  // namespace hawser

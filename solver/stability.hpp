@@ -33,11 +33,20 @@ struct StabilityMode {
 /// Inner unknowns of joints follow at once, without a mass of their own. Costs up to 300 solutions for each sigma.
 std::optional<double> slowest_decay(const Model& model, const State& state, double softest);
 
+/// Water moves past lines or bodies that drag: the loads have no potential, and the elastic tangent does not see every fold.
+bool flows(const Model& model);
+
+/// Neither flow nor friction, and a bed that is level where there is one.
+bool has_potential(const Model& model);
+
 /// Below it [N/m^2] a mode is neutral: 1e-6 reference_force/L^2 with the longest line L. `reference_force` [N]: of the statics (solver/norms.hpp).
 double neutral_stiffness(const Model& model, double reference_force);
 
 /// The mode of least stiffness where the state is unstable or neutral along it; nothing where it is stable.
 std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force);
+
+/// slowest_decay where that is more than neutral_stiffness: the equilibrium is stable with all loads.
+std::optional<double> decay_with_all_loads(const Model& model, const State& state, double reference_force);
 
 /// How many modes are softer than this stiffness [N/m^2].
 int modes_below(const Model& model, const State& state, double stiffness);

@@ -57,31 +57,68 @@ namespace {
 bool at_joint(const Model& model, int element) {
   return std::any_of(model.joints.begin(), model.joints.end(), [&](const Joint& joint) { return joint.element == element; });
 }
-bool at_clamp(const Model& model, int line, int element) {
-  return std::any_of(model.supports.begin(), model.supports.end(), [&](const Support& support) {
-    return support.line == line && support.clamped && (support.node == element || support.node == element + 1);
+/// A clamp at one of the element's ends, of any line; nullptr where there is none.
+const Support* clamp_at(const Model& model, int line, int element) {
+  const auto clamp = std::find_if(model.supports.begin(), model.supports.end(), [&](const Support& support) {
+    return support.clamped && support.line == line && (support.node == element || support.node == element + 1);
   });
+  return clamp == model.supports.end() ? nullptr : &*clamp;
+}
+
+/// The cubic from node `first` to node `last`, with slopes of length one there.
+void draw_cubic(const Model& model, State& state, int index, int first, int last) {
+  const Line& line = model.lines[index];
+  const auto part = [&](int node, int offset) { return Eigen::Map<Vec3>(&state.q[model.dof(index, node) + offset]); };
+  for (const int end : {first, last}) part(end, 3).normalize();
+  for (const Support& support : model.supports)
+    if (support.clamped && support.line == index && (support.node == first || support.node == last)) part(support.node, 3) = support.direction;
+  const Vec3 r0 = part(first, 0), r1 = part(last, 0), t0 = part(first, 3), t1 = part(last, 3);
+  const double S = line.s[last] - line.s[first];
+  const Vec3 chord = (r1 - r0) / S;
+  for (int i = first + 1; i < last; ++i) {
+    const double x = (line.s[i] - line.s[first]) / S;
+    part(i, 0) = r0 + S * (x * chord + x * (1.0 - x) * ((1.0 - x) * (t0 - chord) - x * (t1 - chord)));
+    part(i, 3) = chord + (1.0 - x) * (1.0 - 3.0 * x) * (t0 - chord) + x * (3.0 * x - 2.0) * (t1 - chord);
+  }
 }
 
 }  // namespace
 
 std::optional<Knot> find_knot(const Model& model, const State& state) {
-  constexpr double taut = 10.0;  // loads of an element
+  constexpr double taut = 10.0;     // loads of an element
+  constexpr double squeezed = 0.5;  // of its length
   for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
     const Line& line = model.lines[index];
-    const Chain& chain = model.chain(index);
-    if (chain.block != 6) continue;
-    const auto part = [&](int node, int first) { return Vec3(Eigen::Map<const Vec3>(&state.q[chain.dof(node) + first])); };
+    if (model.chain(index).block != 6) continue;
+    const auto part = [&](int node, int offset) { return Vec3(Eigen::Map<const Vec3>(&state.q[model.dof(index, node) + offset])); };
     for (int i = 0; i < line.elements; ++i) {
       const int e = line.first_element + i;
-      const Vec3 a = part(i, 3), b = part(i + 1, 3), middle = 1.5 / model.element.length[e] * (part(i + 1, 0) - part(i, 0)) - 0.25 * (a + b);
-      if ((a.dot(middle) >= 0.0 && middle.dot(b) >= 0.0) || at_joint(model, e)) continue;
+      const double l = model.element.length[e];
+      const Vec3 a = part(i, 3), b = part(i + 1, 3), middle = 1.5 / l * (part(i + 1, 0) - part(i, 0)) - 0.25 * (a + b);
+      const bool turned = a.dot(middle) < 0.0 || middle.dot(b) < 0.0, gone = std::min({a.norm(), middle.norm(), b.norm()}) < squeezed;
+      const Support* clamp = i == 0 || i + 1 == line.elements ? clamp_at(model, index, i) : nullptr;
+      const bool reversed = clamp && clamp->direction.dot(clamp->node == i ? a : b) < 0.0;
+      if ((!turned && !gone && !reversed) || at_joint(model, e)) continue;
       const double tension = model.element.EA[e] * (std::max(a.norm(), b.norm()) - 1.0), load = 1e6 * model.element.minimum_tension[e];
-      const bool stiff = model.element.EI[e] > (std::abs(tension) + load) * std::pow(model.element.length[e], 2);
-      if (stiff || (tension > taut * load && !at_clamp(model, index, i))) return Knot{index, line.s[i], tension};
+      const double bend = std::sqrt(model.element.EI[e] / std::max(std::abs(tension) + load, 1e-300));
+      if (bend > l || reversed || (turned && !clamp && tension > taut * load)) return Knot{index, i, line.s[i], tension, bend};
     }
   }
   return std::nullopt;
+}
+
+bool draw_out_knots(const Model& model, State& state) {
+  int drawn = 0;
+  for (auto knot = find_knot(model, state); knot && drawn < model.total_elements(); knot = find_knot(model, state), ++drawn) {
+    const Line& line = model.lines[knot->line];
+    const double reach = 2.0 * std::max(knot->bend, line.s[knot->element + 1] - line.s[knot->element]);
+    int first = knot->element, last = first + 1;
+    while (first > 0 && line.s[knot->element] - line.s[first] < reach) --first;
+    while (last + 1 < line.nodes && line.s[last] - line.s[knot->element + 1] < reach) ++last;
+    draw_cubic(model, state, knot->line, first, last);
+  }
+  model.reset_joints(state);
+  return drawn > 0;
 }
 
 State open_start(const Model& model) {

@@ -1,5 +1,7 @@
 #include "solver/static_slip.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +60,13 @@ SlipBranch follow_slip(const Model& model, const StaticOptions& options, double 
     result.state = branch.state_of(followed.points.back().q);
   }
   return result;
+}
+
+std::string describe(const SlipBranch& branch) {
+  const std::string outcome = branch.reached   ? "arrived"
+                              : branch.started ? fmt::format("no way on at {:.2g} m", branch.least)
+                                               : "no equilibrium there";
+  return fmt::format("branch in the slip from {:.2g} m: {}, {} folds, {} factorizations", branch.first, outcome, branch.folds, branch.factorizations);
 }
 
 }  // namespace hawser

@@ -8,6 +8,8 @@
 // (continuation.hpp). What it leads to must be certified like any other equilibrium.
 #pragma once
 
+#include <string>
+
 #include "solver/model_branch.hpp"
 #include "solver/statics.hpp"
 
@@ -19,6 +21,9 @@ struct SlipBranch {
   int folds = 0, factorizations = 0;
   State state;  // where reached
 };
+
+/// For the account of the stages.
+std::string describe(const SlipBranch& branch);
 
 /// Begins at `share` of the longest line and takes about so many factorizations at most, up to 1500 of them for the first equilibrium.
 SlipBranch follow_slip(const Model& model, const StaticOptions& options, double share, int iterations);

@@ -36,6 +36,7 @@ constexpr int creep_iterations = 2000;
 constexpr double creep_enough = 10.0;                 // tolerances
 constexpr double creep_resistance = 100.0;            // of load/length^2: the load moves a line by a hundredth of its length in the first step
 constexpr double same_place = 1e-4;                   // of the length, of two equilibria
+constexpr double push = 1e-2;                         // of the length
 constexpr int rounds_apart = 2;                       // of lines solved one by one
 constexpr double loose_slips[] = {10.0, 1e-2, 1e-3};  // of the longest line: where the branches in the slip begin
 
@@ -67,6 +68,7 @@ class StaticSolver {
         linear_(make_linear_solver(options.linear_solver, options.threads)),
         load_(largest_load(model_)),
         limp_(*std::min_element(model_.element.EI.begin(), model_.element.EI.end()) == 0.0),
+        hangs_(!model_.seabed && std::ranges::any_of(model_.lines, [](const Line& line) { return line.from_free || line.to_free; })),
         tolerance_(options.tolerance) {
     report_.linear_solver = linear_->name();
   }
@@ -86,26 +88,23 @@ class StaticSolver {
     if (exhausted()) return false;
     const State start = static_start(model_, StaticStart::catenary);
     if (accepted("Newton from the catenary", start, unfloored())) return true;
-    const bool hangs = has_free_end() && !model_.seabed;  // what is hard there is the end itself, which no stiffness helps
-    if (hangs && accepted("tension-floored Newton from the catenary", start, floored())) return true;
+    if (hangs_ && accepted("tension-floored Newton from the catenary", start, floored())) return true;
     if (by_continuation(start)) return true;
     if (!model_.hubs.empty() && by_parts(start)) return true;
-    if (!hangs && accepted("tension-floored Newton from the catenary", start, floored())) return true;
+    if (!hangs_ && accepted("tension-floored Newton from the catenary", start, floored())) return true;
     if (by_relaxation(start) || stable_with_all_loads()) return true;
     if (by_creep("where that left it", State(left_), creep_iterations / 2) || stable_with_all_loads()) return true;
-    if (by_creep("the catenary", start, creep_iterations) || stable_with_all_loads() || by_slip()) return true;
+    if (by_creep("the catenary", start, creep_iterations) || stable_with_all_loads() || by_slip() || by_push()) return true;
     if (options_.tolerance > 0.0) return false;
     tolerance_ = loose_tolerance;
     increment_tolerance_ = loose_increment;
     return accepted("tension-floored Newton from the catenary, to a looser tolerance", start, floored());
   }
 
-  bool has_free_end() const {
-    return std::any_of(model_.lines.begin(), model_.lines.end(), [](const Line& line) { return line.from_free || line.to_free; });
-  }
   double first_floor() const { return floor_share * load_; }
   Attempt unfloored() const { return {}; }
   Attempt floored() const { return {first_floor(), false, false, floored_iterations}; }
+  const char* verdict() const { return report_.stable ? "converged" : "converged, compressed or knotted"; }
   bool exhausted() const { return report_.iterations >= options_.max_iterations; }
 
   /// Solves from a start; true if the result is a stable equilibrium. An unstable one is bowed sideways and solved again.
@@ -116,9 +115,10 @@ class StaticSolver {
     if (report_.stable) return true;
     if (exhausted()) return false;
     bow_sideways(model_, state_);
-    return converges(assembler_, name + ", bowed sideways because the result was compressed or knotted",
-                     {first_floor(), false, false, bowed_iterations}) &&
-           report_.stable;
+    const Attempt again{first_floor(), false, false, bowed_iterations};
+    if (!converges(assembler_, name + ", bowed sideways because the result was compressed or knotted", again)) return false;
+    if (report_.stable || exhausted() || !draw_out_knots(model_, state_)) return report_.stable;
+    return converges(assembler_, name + ", its knots drawn out", again) && report_.stable;
   }
 
   /// Every line on its own, then all together, the points where they meet moved by Newton's first increment (static_parts.hpp).
@@ -147,11 +147,8 @@ class StaticSolver {
     const int before = report_.iterations;
     const bool hangs_in_legs = folded(model_, start) && !model_.seabed;
     const bool arrived = first_on_the_way(way, hangs_in_legs ? open_start(model_) : start) && follow(way);
-    report(fmt::format("continuation of the stiffnesses: {} after {} steps, {} factorizations{}",
-                       !arrived         ? "no way on"
-                       : report_.stable ? "converged"
-                                        : "converged, compressed or knotted",
-                       way.steps(), report_.iterations - before, arrived ? "" : ", at " + way.place()));
+    report(fmt::format("continuation of the stiffnesses: {} after {} steps, {} factorizations{}", arrived ? verdict() : "no way on", way.steps(),
+                       report_.iterations - before, arrived ? "" : ", at " + way.place()));
     return arrived && report_.stable;
   }
 
@@ -167,7 +164,7 @@ class StaticSolver {
 
   bool follow(StaticContinuation& way) {
     const Attempt attempts[] = {{0.0, false, true, 15}, {guard_floor * first_floor(), true, true, 100}};
-    int restless = has_free_end() && !model_.seabed ? most_restless : 0;  // what is hard there no motion helps either
+    int restless = hangs_ ? most_restless : 0;  // what is hard there no motion helps either
     while (!way.at_end()) {
       const State before = state_;
       way.advance();
@@ -240,11 +237,7 @@ class StaticSolver {
       if (exhausted() || !model_.seabed || !model_.seabed->law.rubs()) return false;
       const SlipBranch branch = follow_slip(model_, options_, share, options_.max_iterations - report_.iterations);
       report_.iterations += branch.factorizations;
-      report(fmt::format("branch in the slip from {:.2g} m: {}, {} folds, {} factorizations", branch.first,
-                         branch.reached   ? "arrived"
-                         : branch.started ? fmt::format("no way on at {:.2g} m", branch.least)
-                                          : "no equilibrium there",
-                         branch.folds, branch.factorizations));
+      report(describe(branch));
       if (!branch.reached) continue;
       state_ = branch.state;  // unlike motion a branch also leads to what nothing comes to rest in
       if ((converges(assembler_, "Newton from there", {.by_tangent = true}) && report_.stable) || stable_with_all_loads()) return true;
@@ -252,20 +245,29 @@ class StaticSolver {
     return false;
   }
 
+  /// Pushed along their softest modes the unstable equilibria are left, to sink to rest elsewhere.
+  bool by_push() {
+    for (const Found& found : std::vector(unstable_)) {
+      const std::optional<StabilityMode> mode = softest_mode(model_, found.state, found.report.reference_force);
+      if (!mode || find_knot(model_, found.state)) continue;
+      State pushed = found.state;
+      for (std::size_t i = 0; i < pushed.q.size(); ++i) pushed.q[i] += push * longest_line(model_) * mode->shape[i];
+      if (by_creep("an unstable equilibrium, pushed along its softest mode", pushed, creep_iterations / 4)) return true;
+    }
+    return false;
+  }
+
   /// Equilibria that are unstable without the loads that have no potential may be stable with them (stability.hpp): each is looked at once.
   bool stable_with_all_loads() {
-    while (unsymmetric() && looked_at_ < unstable_.size()) {
+    while (!has_potential(model_) && looked_at_ < unstable_.size()) {
       const Found& found = unstable_[looked_at_++];
       if (find_knot(model_, found.state)) continue;
-      const double reference = found.report.reference_force, neutral = neutral_stiffness(model_, reference);
-      const std::optional<StabilityMode> mode = softest_mode(model_, found.state, reference);
-      const std::optional<double> slowest = slowest_decay(model_, found.state, mode ? mode->stiffness : neutral);
-      if (!slowest || *slowest <= neutral) continue;
+      const std::optional<double> slowest = decay_with_all_loads(model_, found.state, found.report.reference_force);
+      if (!slowest) continue;
       take(found);
       report_.stable = true;
       report_.slowest_decay = slowest;
-      report(
-          fmt::format("{}: stable with all loads, though not without drag and friction; slowest decay {:.2g} N/m2", found.failure.stage, *slowest));
+      report(fmt::format("{}: stable with all loads, not without drag and friction; slowest decay {:.2g} N/m2", found.failure.stage, *slowest));
       return true;
     }
     return false;
@@ -295,18 +297,18 @@ class StaticSolver {
     if (exhausted()) return false;
     const double exact_below = attempt.guarded ? HUGE_VAL : !limp_ ? beam_exact_below : attempt.floor > 0.0 ? 0.0 : HUGE_VAL;
     StaticSystem system(assembler, *linear_, attempt.on_the_way ? way_tolerance : tolerance_, exact_below, state_);
-    system.keep_definite(attempt.guarded && !unsymmetric());
+    system.keep_definite(attempt.guarded && has_potential(model_));
     NewtonOptions newton_options;
     newton_options.length = longest_line(model_);
     newton_options.floor = attempt.floor;
     newton_options.increment_tolerance = attempt.on_the_way ? way_increment : increment_tolerance_;
     newton_options.max_iterations = std::min(options_.max_iterations - report_.iterations, attempt.iterations);
-    newton_options.inexact_matrix = !linear_->takes_unsymmetric() && unsymmetric();
+    newton_options.inexact_matrix = !linear_->takes_unsymmetric() && !has_potential(model_);
     const NewtonReport result = attempt.guarded ? guarded_newton(system, newton_options) : newton(system, newton_options);
     record(system, result);
     if (result.converged()) certify(assembler.model(), system, attempt.by_tangent);
     if (attempt.on_the_way) return result.converged();
-    const std::string outcome = !result.converged() ? "not converged" : report_.stable ? "converged" : "converged, compressed or knotted";
+    const std::string outcome = result.converged() ? verdict() : "not converged";
     report(fmt::format("{}: {} after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, result.factorizations, report_.residual,
                        report_.reference_force));
     if (!report_.converged || !report_.stable) remember(name, explain_failure(model_, state_, system, result, report_));
@@ -346,9 +348,6 @@ class StaticSolver {
     if (options_.log) options_.log(stage);
   }
 
-  /// Drag, friction and a bed that is not level have no potential.
-  bool unsymmetric() const { return model_.wet || (model_.seabed && (model_.seabed->law.rubs() || !model_.seabed->surface.level())); }
-
   void record(StaticSystem& system, const NewtonReport& result) {
     report_.iterations += result.factorizations;
     report_.converged = result.converged();
@@ -376,6 +375,7 @@ class StaticSolver {
   State left_;   // by the relaxation
   double load_;  // N, of the line with the largest one
   bool limp_;    // some element has no bending stiffness
+  bool hangs_;   // free ends and no bed: what is hard there is the end itself, which no stiffness helps
   double tolerance_, increment_tolerance_ = NewtonOptions{}.increment_tolerance;
   Found best_;
   std::vector<Found> unstable_;  // equilibria, looked at by stable_with_all_loads up to looked_at_
