@@ -26,8 +26,7 @@ namespace hawser {
 struct PassedPoint {
   double p = 0.0;
   bool fold = false, bifurcation = false;
-  bool stable =
-      false;  // in a flow: every push dies away (stability.hpp); else no negative pivot of the elastic tangent; false at a fold or bifurcation
+  bool stable = false;  // in a flow every push dies away (stability.hpp), else no negative pivot; false at a fold or bifurcation
   int negative_pivots = 0;
   int iterations = 0;     // factorizations since the point before
   double residual = 0.0;  // relative to the reference force

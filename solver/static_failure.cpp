@@ -97,18 +97,21 @@ std::optional<Failure> refuse(const Model& model) {
   return std::nullopt;
 }
 
+Failure knotted(const Model& model, const Knot& knot) {
+  Failure failure;
+  failure.what =
+      fmt::format("only a knotted equilibrium was found: the line turns back within an element, under a strain tension of {:.4g} N", knot.tension);
+  failure.line = model.lines[knot.line].name;
+  failure.s = knot.s;
+  failure.cause = "the start holds a loop that is smaller than the elements can follow";
+  failure.remedy = "start from the catenary (--start catenary), or use elements shorter than the loop if it is meant";
+  return failure;
+}
+
 Failure explain_failure(const Model& model, const State& state, const StaticSystem& system, const NewtonReport& newton, const StaticReport& report) {
   const LeastTension least = least_strain_tension(model, state);
   Failure failure;
-  if (const auto knot = newton.converged() ? find_knot(model, state) : std::nullopt) {
-    failure.what =
-        fmt::format("only a knotted equilibrium was found: the line turns back within an element under a tension of {:.4g} N", knot->tension);
-    failure.line = model.lines[knot->line].name;
-    failure.s = knot->s;
-    failure.cause = "the start holds a loop that is smaller than the elements can follow";
-    failure.remedy = "start from the catenary (--start catenary), or use elements shorter than the loop if it is meant";
-    return failure;
-  }
+  if (const auto knot = newton.converged() ? find_knot(model, state) : std::nullopt) return knotted(model, *knot);
   if (newton.converged()) {
     failure.what = fmt::format("only an unstable equilibrium was found: {} negative pivots, strain tension {:.4g} N (compression)",
                                report.negative_pivots, least.value);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "solver/static_perturbation.hpp"
 #include "solver/static_system.hpp"
 #include "solver/statics.hpp"
 
@@ -14,6 +15,9 @@ std::optional<Failure> refuse(const Model& model);
 
 /// Name of the free point at which lines meet whose position is at this unknown; empty where there is none.
 std::string meeting_point(const Model& model, std::size_t unknown);
+
+/// A state that satisfies the equations but is knotted.
+Failure knotted(const Model& model, const Knot& knot);
 
 /// Why the last stage was not accepted.
 Failure explain_failure(const Model& model, const State& state, const StaticSystem& system, const NewtonReport& newton, const StaticReport& report);

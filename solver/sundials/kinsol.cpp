@@ -269,13 +269,14 @@ StaticReport solve_static_kinsol(const Assembler& assembler, const StaticOptions
     }
     report.iterations = problem.factorizations;
     report.negative_pivots = report.converged ? unstable_directions(model, state) : 0;
-    report.stable = report.converged && report.negative_pivots == 0;
-    const char* outcome = report.stable ? "converged" : report.converged ? "converged, unstable" : "not converged";
+    const auto knot = report.converged ? find_knot(model, state) : std::nullopt;
+    report.stable = report.converged && report.negative_pivots == 0 && !knot;
+    const char* outcome = report.stable ? "converged" : report.converged ? "converged, unstable or knotted" : "not converged";
     report.stages.push_back(fmt::format("KINSOL {}: {} ({}) after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, name_of_flag(flag),
                                         problem.factorizations - before, report.residual, report.reference_force));
     if (options.log) options.log(report.stages.back());
     report.converged = report.stable;
-    report.failure = report.converged ? Failure{} : explain(problem, report, flag);
+    report.failure = report.converged ? Failure{} : knot ? knotted(model, *knot) : explain(problem, report, flag);
     return report.converged;
   };
   const auto solved_from = [&](const char* name, const State& start) {

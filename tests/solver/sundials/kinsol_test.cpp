@@ -114,6 +114,20 @@ TEST(Kinsol, AnUnstableEquilibriumIsNoAnswer) {
   EXPECT_NE(report.stages[1].find("catenary"), std::string::npos);
 }
 
+// From the catenary, which hangs, the column would turn back within its first element and hang through its clamp.
+TEST(Kinsol, DoesNotCallAKnotAnEquilibrium) {
+  SceneBuilder b;
+  b.dry().type(line_type("pipe", 1e7, 1.0, 100.0)).fixed("foot", {0, 0, 0}).free("top", {0, 0, 10});
+  b.line("foot", "top").section("pipe", 10.0, 16).clamp_from({0, 0, 1});
+  const Model model = build_model(b.scene);
+  State state;
+  const StaticReport report = solve_static_kinsol(Assembler(model), {}, state);
+  EXPECT_FALSE(report.converged);
+  EXPECT_FALSE(report.stable);
+  EXPECT_NE(report.failure.what.find("knotted"), std::string::npos) << report.failure.what;
+  EXPECT_EQ(report.failure.s, 0.0);
+}
+
 TEST(Kinsol, ObeysTheLimitOfFactorizationsAndSaysWhyItStopped) {
   const Model model = build_model(span(0.8, 0.0));
   State state = model.make_state();
