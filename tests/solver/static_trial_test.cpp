@@ -45,31 +45,44 @@ std::string name_of_kind(const Slice& slice) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, StaticTrial, ::testing::ValuesIn(slices()), [](const auto& kind) { return name_of_kind(kind.param); });
 
-/// Scenes beyond the slices that were refused once.
-struct Refused {
+/// Scenes beyond the slices that were refused once, or answered by a knot.
+struct Missed {
   const char* cause;
   Trial (*draw)(std::uint64_t seed, std::uint64_t number);
   std::uint64_t seed, number;
+  bool minutes_under_sanitizers = false;
 };
 
-TEST(StaticTrial, ScenesThatWereRefusedOnceAreSolved) {
-  const Refused scenes[] = {
-      {"only creep ends at the last slope of a bare end", draw_trial, 1, 2830},
-      {"a pipe on a slope in a current, stable with friction and drag only", draw_trial, 2, 797},
-      {"a pipe laid across a current, stable with friction and drag only", draw_trial, 3, 4836},
-      {"directions of a bare end that nothing holds", draw_trial, 2, 1150},
-      {"a network with a compressed line that drag holds", draw_network, 1, 335},
-      {"legs on a bed with friction: only the branch in the slip leads there", draw_network, 1, 997},
-      {"a ring that folds in a current", draw_network, 1, 1283},
-      {"a ring that folds in a current", draw_network, 1, 1395},
-  };
-  for (const Refused& scene : scenes) {
-    const TrialOutcome outcome = run_trial(scene.draw(scene.seed, scene.number));
-    EXPECT_TRUE(outcome.converged) << scene.cause << ": " << outcome.report.failure.what;
-    EXPECT_FALSE(outcome.loose) << scene.cause;
-    EXPECT_FALSE(outcome.wrong) << scene.cause << ": " << *outcome.wrong;
-  }
+constexpr Missed missed[] = {
+    {"the clamped end of a pipe shrinks to nothing", draw_trial, 1, 1206},
+    {"the other end of one does", draw_trial, 1, 3206},
+    {"a stiff line lies in three layers within an element", draw_trial, 1, 5854},
+    {"only creep ends at the last slope of a bare end", draw_trial, 1, 2830},
+    {"a pipe on a slope in a current, stable with friction and drag only", draw_trial, 2, 797},
+    {"a pipe laid across a current, stable with friction and drag only", draw_trial, 3, 4836},
+    {"directions of a bare end that nothing holds", draw_trial, 2, 1150},
+    {"a network with a compressed line that drag holds", draw_network, 1, 335},
+    {"legs on a bed with friction: only the branch in the slip leads there", draw_network, 1, 997, true},
+    {"a ring that folds in a current", draw_network, 1, 1283},
+    {"a ring that folds in a current", draw_network, 1, 1395},
+};
+
+class StaticTrialMissed : public ::testing::TestWithParam<Missed> {};
+
+TEST_P(StaticTrialMissed, SceneIsSolvedNow) {
+  const Missed& scene = GetParam();
+#ifdef __SANITIZE_ADDRESS__
+  if (scene.minutes_under_sanitizers) GTEST_SKIP() << "takes minutes here; the Release build runs it";
+#endif
+  const TrialOutcome outcome = run_trial(scene.draw(scene.seed, scene.number));
+  EXPECT_TRUE(outcome.converged) << scene.cause << ": " << outcome.report.failure.what;
+  EXPECT_FALSE(outcome.loose) << scene.cause;
+  EXPECT_FALSE(outcome.wrong) << scene.cause << ": " << *outcome.wrong;
 }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, StaticTrialMissed, ::testing::ValuesIn(missed), [](const auto& scene) {
+  return fmt::format("{}_{}_of_seed_{}", scene.param.draw == draw_network ? "network" : "scene", scene.param.number, scene.param.seed);
+});
 
 TEST(StaticTrialScenes, AreTheSameEveryTime) {
   for (const auto draw : {draw_trial, draw_network})
