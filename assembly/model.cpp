@@ -85,7 +85,7 @@ class ModelBuilder {
     for (const LineSpec& line : scene_.lines) add_line(line);
     number_unknowns(model_);
     model_.seabed = make_seabed(scene_, model_);
-    put_bodies_on_seabed(scene_, model_);
+    put_bodies_on_seabed(model_);
     return std::move(model_);
   }
 
@@ -167,6 +167,7 @@ class ModelBuilder {
     e.added_normal.push_back(rho * area * type.added_mass_normal);
     e.added_tangential.push_back(rho * area * type.added_mass_tangential);
     e.minimum_tension.push_back(1.0e-6 * (std::abs(weight) + drag_normal * fastest * fastest) * length);
+    e.diameter.push_back(d);
     model_.wet =
         model_.wet ||
         (rho > 0.0 && (type.drag_normal > 0.0 || type.drag_tangential > 0.0 || type.added_mass_normal > 0.0 || type.added_mass_tangential > 0.0));

@@ -95,6 +95,7 @@ struct ElementArrays {
   std::vector<double> drag_normal, drag_tangential;    // 1/2 rho Cdn d and 1/2 rho Cdt pi d [kg/m2]
   std::vector<double> added_normal, added_tangential;  // kg/m
   std::vector<double> minimum_tension;                 // N: 1e-6 (|w| + |drag|) l, theory 7.2
+  std::vector<double> diameter;                        // m
 };
 
 /// Steady current, components linear in z between rows (ascending z), constant beyond.
@@ -139,6 +140,7 @@ struct Model {
   int total_nodes() const { return static_cast<int>(node_length.size()); }
   int total_elements() const { return static_cast<int>(element.length.size()); }
   const Chain& chain(int line) const { return chains[line]; }
+  bool rubs() const { return seabed && seabed->law.rubs(); }  // the seabed has friction
 
   /// First unknown of node `node` (0-based within its line).
   std::size_t dof(int line, int node) const { return chains[line].dof(node); }

@@ -82,14 +82,13 @@ std::vector<Support> places_of(const Model& model, const Body& body) {
 }
 
 /// What presses a unit length of the line around a body into the bed, or would where the line weighs nothing: max(w, N(d/10)).
-double pressure_around(const Scene& scene, const Model& model, const std::vector<Support>& places) {
+double pressure_around(const Model& model, const std::vector<Support>& places) {
   double weight = 0.0, diameter = 0.0;
   for (const Support& place : places) {
-    const LineMesh mesh = mesh_line(scene.lines[place.line], scene.line_types);
     const Line& line = model.lines[place.line];
     for (int i = std::max(0, place.node - 1); i <= std::min(place.node, line.elements - 1); ++i) {
       weight = std::max(weight, model.element.weight[line.first_element + i]);
-      diameter = std::max(diameter, mesh.type[i]->diameter);
+      diameter = std::max(diameter, model.element.diameter[line.first_element + i]);
     }
   }
   return std::max(weight, contact_pressure(model.seabed->law, least_sink * diameter));
@@ -107,13 +106,13 @@ std::optional<Vec3> laid_place(const Model& model, const std::vector<Support>& p
 
 }  // namespace
 
-void put_bodies_on_seabed(const Scene& scene, Model& model) {
+void put_bodies_on_seabed(Model& model) {
   if (!model.seabed) return;
   for (Body& body : model.bodies) {
     const double load = body.wet_weight + std::max(0.0, -body.force(0.0).z());
     if (load <= 0.0) continue;
     const std::vector<Support> places = places_of(model, body);
-    const double pressure = pressure_around(scene, model, places);
+    const double pressure = pressure_around(model, places);
     if (pressure > 0.0) body.bed_length = load / pressure;
     if (model.seabed->law.rubs()) body.lay = laid_place(model, places);
   }

@@ -11,7 +11,7 @@ namespace hawser {
 std::optional<Seabed> make_seabed(const Scene& scene, const Model& model);
 
 /// How much of the bed every body feels, and from where its friction counts (seabed_bodies.hpp).
-void put_bodies_on_seabed(const Scene& scene, Model& model);
+void put_bodies_on_seabed(Model& model);
 
 /// The bed of an environment; absent where it has none.
 std::optional<SeabedSurface> seabed_surface(const Environment& environment);

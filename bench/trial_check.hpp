@@ -29,6 +29,7 @@
 #include "bench/trial_networks.hpp"
 #include "bench/trial_scenes.hpp"
 #include "bench/trial_spectrum.hpp"
+#include "solver/newton.hpp"
 #include "solver/norms.hpp"
 #include "solver/static_start_catenary.hpp"
 #include "solver/static_start_loads.hpp"
@@ -64,10 +65,7 @@ class TrialCheck {
   }
 
   /// N, of one node: the tolerance of Newton, or what rounding leaves.
-  double unbalanced() const {
-    constexpr double margin = 20.0;  // of rounding: newton.cpp
-    return std::max(1e-10 * reference_, margin * roundoff_force(model_, state_));
-  }
+  double unbalanced() const { return std::max(1e-10 * reference_, rounding_margin * roundoff_force(model_, state_)); }
 
   Complaint stability() const {
     if (free_of_compression(model_, state_, roundoff_force(model_, state_))) return std::nullopt;

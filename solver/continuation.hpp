@@ -22,8 +22,9 @@
 // Where the number of negative pivots changes between two points without a fold, another branch crosses (a bifurcation): the place is found by
 // bisection between them, because the bordered matrix is singular there too. The branch that crosses is met at a distance h along the mode phi whose
 // stiffness vanishes there:
-//   R(q, p) = 0,   <phi, q - q0> = h,      (q0, p0) the bifurcation. E.
-// Allgower, K. Georg, Introduction to Numerical Continuation Methods, 1990; T. Chan, SIAM J. Numer. Anal. 21 (1984) 738 (deflation).
+//   R(q, p) = 0,   <phi, q - q0> = h,      (q0, p0) the bifurcation.
+//
+// E. Allgower, K. Georg, Introduction to Numerical Continuation Methods, 1990; T. Chan, SIAM J. Numer. Anal. 21 (1984) 738 (deflation).
 #pragma once
 
 #include <cstddef>

@@ -224,7 +224,7 @@ bool ModelBranch::respond(std::span<const double> q, std::size_t spring, BranchR
   const State& state = instance_->with(q);
   Tangent& tangent = *tangent_;
   assembler.tangent(state, static_weights, floor_for(model, state), r, tangent);
-  hold(model, little_stiffness(model, residual(q).reference), tangent.chain);
+  hold(model, little_stiffness(model, reference_force(model, r)), tangent.chain);
   const double stiffness = spring == no_spring ? 0.0 : double_diagonal(tangent, spring);
   if (linear_.factorize(tangent).status != FactorStatus::ok) return false;
   std::vector<double> rhs(model.dofs);

@@ -216,7 +216,7 @@ bool flows(const Model& model) {
   return drags && (model.current.fastest() > 0.0 || model.tow != Vec3::Zero());
 }
 
-bool has_potential(const Model& model) { return !flows(model) && !(model.seabed && (model.seabed->law.rubs() || !model.seabed->surface.level())); }
+bool has_potential(const Model& model) { return !flows(model) && !model.rubs() && !(model.seabed && !model.seabed->surface.level()); }
 
 double neutral_stiffness(const Model& model, double reference_force) { return neutral_share * reference_force / std::pow(longest_line(model), 2); }
 

@@ -46,7 +46,7 @@ bool clamped(const Model& model, int line) {
 std::string likely_cause(const Model& model, const LeastTension& least) {
   const Line& line = model.lines[least.line];
   const std::string place = fmt::format("at s = {:.6g} m of \"{}\"", least.s, line.name);
-  if (model.seabed && model.seabed->law.rubs())
+  if (model.rubs())
     return fmt::format("friction holds the line in one of many ways, and it slips from one to the next; the least strain tension is {:.4g} N {}",
                        least.value, place);
   if (model.seabed && !model.seabed->surface.level())
@@ -117,13 +117,13 @@ Failure explain_failure(const Model& model, const State& state, const StaticSyst
                                report.negative_pivots, least.value);
     failure.line = model.lines[least.line].name;
     failure.s = least.s;
-    const bool rubs = model.seabed && model.seabed->law.rubs();
     failure.cause =
-        rubs ? "friction pushes the slack line together where it lies; it gives way at the least push, and no motion came to rest elsewhere"
-             : "a straight compressed line satisfies the equations but would buckle at once";
+        model.rubs() ? "friction pushes the slack line together where it lies; it gives way at the least push, and no motion came to rest elsewhere"
+                     : "a straight compressed line satisfies the equations but would buckle at once";
     failure.remedy =
-        rubs ? loosen_the_bed
-             : "start from the catenary (--start catenary), offset an end sideways, or give the line type an EI so that it can carry the load";
+        model.rubs()
+            ? loosen_the_bed
+            : "start from the catenary (--start catenary), offset an end sideways, or give the line type an EI so that it can carry the load";
     return failure;
   }
   const WorstNode worst = system.worst();
@@ -148,7 +148,7 @@ Failure explain_failure(const Model& model, const State& state, const StaticSyst
   } else {
     failure.cause = likely_cause(model, least);
     failure.remedy =
-        model.seabed && model.seabed->law.rubs()
+        model.rubs()
             ? loosen_the_bed
             : "give the line type a small EI, use more elements there, or solve first with less current or a shorter line and continue with --from";
   }

@@ -28,7 +28,8 @@ ElementArrays elements_of(const ElementArrays& all, const Line& line) {
           of(all.drag_tangential),
           of(all.added_normal),
           of(all.added_tangential),
-          of(all.minimum_tension)};
+          of(all.minimum_tension),
+          of(all.diameter)};
 }
 
 /// Those of the loads, joints or supports of all lines that are this one's, renumbered.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/norms.hpp"
+#include "solver/static_start_shape.hpp"
 #include "solver/statics.hpp"
 
 namespace hawser {
@@ -53,11 +55,12 @@ bool folded(const Model& model, const State& state) {
 
 namespace {
 
-/// A limp element may turn sharply next to a clamp, and left of a joint it ends with a slope of its own.
+/// Left of a joint an element ends with a slope of its own.
 bool at_joint(const Model& model, int element) {
   return std::any_of(model.joints.begin(), model.joints.end(), [&](const Joint& joint) { return joint.element == element; });
 }
-/// A clamp at one of the element's ends, of any line; nullptr where there is none.
+
+/// The clamp next to which an element lies, where a limp one may turn sharply; nullptr where there is none.
 const Support* clamp_at(const Model& model, int line, int element) {
   const auto clamp = std::find_if(model.supports.begin(), model.supports.end(), [&](const Support& support) {
     return support.clamped && support.line == line && (support.node == element || support.node == element + 1);
@@ -72,13 +75,11 @@ void draw_cubic(const Model& model, State& state, int index, int first, int last
   for (const int end : {first, last}) part(end, 3).normalize();
   for (const Support& support : model.supports)
     if (support.clamped && support.line == index && (support.node == first || support.node == last)) part(support.node, 3) = support.direction;
-  const Vec3 r0 = part(first, 0), r1 = part(last, 0), t0 = part(first, 3), t1 = part(last, 3);
-  const double S = line.s[last] - line.s[first];
-  const Vec3 chord = (r1 - r0) / S;
+  const Cubic cubic{part(first, 0), part(last, 0), part(first, 3), part(last, 3), line.s[last] - line.s[first]};
   for (int i = first + 1; i < last; ++i) {
-    const double x = (line.s[i] - line.s[first]) / S;
-    part(i, 0) = r0 + S * (x * chord + x * (1.0 - x) * ((1.0 - x) * (t0 - chord) - x * (t1 - chord)));
-    part(i, 3) = chord + (1.0 - x) * (1.0 - 3.0 * x) * (t0 - chord) + x * (3.0 * x - 2.0) * (t1 - chord);
+    const double x = (line.s[i] - line.s[first]) / cubic.h;
+    part(i, 0) = cubic.r(x);
+    part(i, 3) = cubic.slope(x);
   }
 }
 
@@ -148,15 +149,14 @@ State open_start(const Model& model) {
 }
 
 double distance(const Model& model, const State& a, const State& b) {
-  double largest = 0.0, longest = 0.0;
+  double largest = 0.0;
   for (int line = 0; line < static_cast<int>(model.lines.size()); ++line) {
-    longest = std::max(longest, model.lines[line].length);
     for (int i = 0; i < model.lines[line].nodes; ++i) {
       const std::size_t r = model.dof(line, i);
       largest = std::max(largest, (Eigen::Map<const Vec3>(&a.q[r]) - Eigen::Map<const Vec3>(&b.q[r])).norm());
     }
   }
-  return largest / longest;
+  return largest / longest_line(model);
 }
 
 }  // namespace hawser

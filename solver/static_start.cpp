@@ -46,10 +46,9 @@ LineShape table_shape(const Line& line, const ShapeTable& table) {
     const auto above = std::upper_bound(table.s.begin(), table.s.end(), line.s[i]) - table.s.begin();
     const int k = std::clamp(static_cast<int>(above) - 1, 0, rows - 2);
     const double h = table.s[k + 1] - table.s[k], x = (line.s[i] - table.s[k]) / h;
-    const Vec3 a = slope(k), b = slope(k + 1), chord = difference(k, k + 1);
-    shape.r[i] = table.position[k] + h * (x * chord + x * (1 - x) * ((1 - x) * (a - chord) - x * (b - chord)));
-    const Vec3 tangent = chord + (1 - x) * (1 - 3 * x) * (a - chord) + x * (3 * x - 2) * (b - chord);
-    shape.left[i] = shape.right[i] = tangent.stableNormalized();
+    const Cubic cubic{table.position[k], table.position[k + 1], slope(k), slope(k + 1), h};
+    shape.r[i] = cubic.r(x);
+    shape.left[i] = shape.right[i] = cubic.slope(x).stableNormalized();
   }
   return shape;
 }

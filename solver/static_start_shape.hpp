@@ -8,6 +8,16 @@
 
 namespace hawser {
 
+/// The cubic of arc length h from `a` with slope `at_a` to `b` with slope `at_b`, at x h.
+struct Cubic {
+  Vec3 a, b, at_a, at_b;
+  double h;
+
+  Vec3 chord() const { return (b - a) / h; }
+  Vec3 r(double x) const { return a + h * (x * chord() + x * (1 - x) * ((1 - x) * (at_a - chord()) - x * (at_b - chord()))); }
+  Vec3 slope(double x) const { return chord() + (1 - x) * (1 - 3 * x) * (at_a - chord()) + x * (3 * x - 2) * (at_b - chord()); }
+};
+
 struct LineShape {
   std::vector<Vec3> r;      // m
   std::vector<Vec3> left;   // r' at the right end of the element before the node (first node: as `right`)

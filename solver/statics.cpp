@@ -234,7 +234,7 @@ class StaticSolver {
   /// Along branches of equilibria from beds that hold the line later than the real one (static_slip.hpp).
   bool by_slip() {
     for (const double share : loose_slips) {
-      if (exhausted() || !model_.seabed || !model_.seabed->law.rubs()) return false;
+      if (exhausted() || !model_.rubs()) return false;
       const SlipBranch branch = follow_slip(model_, options_, share, options_.max_iterations - report_.iterations);
       report_.iterations += branch.factorizations;
       report(describe(branch));
@@ -247,11 +247,12 @@ class StaticSolver {
 
   /// Pushed along their softest modes the unstable equilibria are left, to sink to rest elsewhere.
   bool by_push() {
-    for (const Found& found : std::vector(unstable_)) {
-      const std::optional<StabilityMode> mode = softest_mode(model_, found.state, found.report.reference_force);
-      if (!mode || find_knot(model_, found.state)) continue;
-      State pushed = found.state;
-      for (std::size_t i = 0; i < pushed.q.size(); ++i) pushed.q[i] += push * longest_line(model_) * mode->shape[i];
+    const double size = push * longest_line(model_);
+    for (std::size_t k = 0, known = unstable_.size(); k < known; ++k) {  // creep may find more
+      State pushed = unstable_[k].state;
+      const std::optional<StabilityMode> mode = softest_mode(model_, pushed, unstable_[k].report.reference_force);
+      if (!mode) continue;
+      for (std::size_t i = 0; i < pushed.q.size(); ++i) pushed.q[i] += size * mode->shape[i];
       if (by_creep("an unstable equilibrium, pushed along its softest mode", pushed, creep_iterations / 4)) return true;
     }
     return false;
@@ -261,7 +262,6 @@ class StaticSolver {
   bool stable_with_all_loads() {
     while (!has_potential(model_) && looked_at_ < unstable_.size()) {
       const Found& found = unstable_[looked_at_++];
-      if (find_knot(model_, found.state)) continue;
       const std::optional<double> slowest = decay_with_all_loads(model_, found.state, found.report.reference_force);
       if (!slowest) continue;
       take(found);
@@ -319,7 +319,7 @@ class StaticSolver {
   void remember(const std::string& name, Failure failure) {
     failure.stage = name;
     const auto same = [&](const Found& other) { return distance(model_, other.state, state_) <= same_place; };
-    if (report_.converged && report_.negative_pivots > 0 && std::none_of(unstable_.begin(), unstable_.end(), same))
+    if (report_.converged && report_.negative_pivots > 0 && std::none_of(unstable_.begin(), unstable_.end(), same) && !find_knot(model_, state_))
       unstable_.push_back({state_, report_, failure});
     if (best_.failure.what.empty() || std::pair(best_.report.converged, -best_.report.residual) < std::pair(report_.converged, -report_.residual))
       best_ = {state_, report_, failure};
@@ -378,7 +378,7 @@ class StaticSolver {
   bool hangs_;   // free ends and no bed: what is hard there is the end itself, which no stiffness helps
   double tolerance_, increment_tolerance_ = NewtonOptions{}.increment_tolerance;
   Found best_;
-  std::vector<Found> unstable_;  // equilibria, looked at by stable_with_all_loads up to looked_at_
+  std::vector<Found> unstable_;  // equilibria without knots, looked at by stable_with_all_loads up to looked_at_
   std::size_t looked_at_ = 0;
 };
 

@@ -146,7 +146,7 @@ std::vector<std::string> terms_of(const Model& model, const Line& line) {
   if (any_in(e.added_normal, line) || any_in(e.added_tangential, line)) terms.emplace_back("added mass");
   if (any_in(e.axial_damping, line)) terms.emplace_back("axial damping");
   if (model.seabed) terms.emplace_back("seabed");
-  if (model.seabed && model.seabed->law.rubs()) terms.emplace_back("seabed friction");
+  if (model.rubs()) terms.emplace_back("seabed friction");
   return terms;
 }
 

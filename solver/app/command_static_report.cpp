@@ -106,7 +106,7 @@ std::string stiffness_text(const Model& model, const StaticSolution& solution) {
 }
 
 /// What rests on the bed, a row for every line that touches it and every point whose body does, and a blank line.
-std::string seabed_text(const Model& model, const State& state) {
+std::string seabed_text(const Model& model, const State& state, std::span<const PointResult> points) {
   std::vector<std::vector<std::string>> rows{{"on the seabed", "touchdown at s [m]", "length", "force", "deepest"}};
   for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) {
     const SeabedContact c = observe_seabed(model, state, i);
@@ -116,7 +116,6 @@ std::string seabed_text(const Model& model, const State& state) {
     rows.push_back({model.lines[static_cast<std::size_t>(i)].name, places.empty() ? "none" : places, fmt::format("{:.6g} m", c.length),
                     with_prefix(c.force, "N"), fmt::format("{:.2g} m at s = {:.6g} m", c.largest_penetration, c.largest_penetration_s)});
   }
-  const std::vector<PointResult> points = observe_points(model, state);
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].bed.z() > 0.0) rows.push_back({model.points[i].name, "", "", with_prefix(points[i].bed.z(), "N"), ""});
   return rows.size() > 1 ? table(rows) + '\n' : "";
@@ -196,7 +195,7 @@ std::string static_text(const Scene& scene, const Model& model, const StaticSolu
     for (int axis = 0; axis < 3; ++axis) row.push_back(force_text(results[i].force[axis], report));
     points.push_back(row);
   }
-  const std::string on_bed = model.seabed ? seabed_text(model, solution.state) : "";
+  const std::string on_bed = model.seabed ? seabed_text(model, solution.state, results) : "";
   const std::string probe = solution.probe ? probe_text(model, *solution.probe, solution.probe_options) : "";
   return fmt::format("{}\n{} equilibrium after {} factorizations ({}), residual {:.1e} of {}, {:.3g} s\n\n{}{}\n{}{}{}{}", scene.title,
                      stability_of(solution), report.iterations, report.linear_solver, report.residual, with_prefix(report.reference_force, "N"),
