@@ -68,7 +68,7 @@ class TrialCheck {
   double unbalanced() const { return std::max(1e-10 * reference_, rounding_margin * roundoff_force(model_, state_)); }
 
   Complaint stability() const {
-    if (free_of_compression(model_, state_, roundoff_force(model_, state_))) return std::nullopt;
+    if (free_of_compression(model_, state_)) return std::nullopt;
     const int pivots = negative_pivots_of_elastic_tangent(model_, state_);
     if (pivots == 0) return std::nullopt;
     const double slowest = least_decay(model_, state_);

@@ -120,12 +120,8 @@ void follow_supports(const Model& model, State& state) {
   model.align_clamps(state);
 }
 
-int unstable_directions(const Model& model, const State& state) {
-  return free_of_compression(model, state, roundoff_force(model, state)) ? 0 : negative_pivots_of_elastic_tangent(model, state);
-}
-
 int directions_that_give_way(const Model& model, const State& state, double reference_force) {
-  if (free_of_compression(model, state, roundoff_force(model, state))) return 0;
+  if (free_of_compression(model, state)) return 0;
   return modes_below(model, state, -little_stiffness(model, reference_force));
 }
 

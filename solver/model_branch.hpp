@@ -30,11 +30,9 @@ std::vector<int> layout_of(const Model& model);
 /// Moves the held ends of every line to where the model has them at t = 0, the lines with them, and turns its clamps.
 void follow_supports(const Model& model, State& state);
 
-/// Negative pivots of the elastic tangent as statics counts them, and 0 without a look at it where no compression could buckle a line.
-int unstable_directions(const Model& model, const State& state);
-
-/// The same, but only what `hawser static` calls neutral is: |stiffness| <= 1e-6 reference force/L^2 (stability.hpp) and rounding. Statics also takes
-/// for neutral what a hundredth of a pendulum's stiffness could hold, which is up to a percent of the load at which a column buckles.
+/// Directions in which an equilibrium is unstable (static_system.hpp), but neutral is only what `hawser static` calls so, |stiffness| <= 1e-6
+/// reference force/L^2 (stability.hpp), and rounding. Statics also takes for neutral what a hundredth of a pendulum's stiffness could hold, which is
+/// up to a percent of the load at which a column buckles.
 int directions_that_give_way(const Model& model, const State& state, double reference_force);
 
 class ModelBranch final : public BranchSystem {

@@ -56,10 +56,12 @@ class Pencil {
     for (const BorderEnd& end : tangent_.border.ends) std::fill_n(&chain_mass_[end.r], 3, 0.0);
   }
 
+  /// How many eigenvalues are less; those of inner unknowns, which have no mass, are 0 or infinite and counted by themselves.
   int below(double sigma) {
     shift(sigma);
-    return inertia_of_symmetric_part(shifted_.chain).negative + tangent_.negative_inner_pivots() + negative_hub_pivots(shifted_);
+    return inertia_of_symmetric_part(shifted_.chain).negative + negative_hub_pivots(shifted_);
   }
+  int without_mass() const { return tangent_.negative_inner_pivots(); }
 
   /// Inverse iteration with K - sigma M; returns the Rayleigh quotient and the mode over all unknowns. Nothing where it cannot be factorized.
   std::optional<double> iterate(double sigma, std::vector<double>& mode) {
@@ -238,12 +240,15 @@ std::optional<StabilityMode> softest_mode(const Model& model, const State& state
   const std::optional<double> stiffness = pencil.iterate(low, mode.shape);
   if (!stiffness) return std::nullopt;
   mode.stiffness = *stiffness;
-  mode.negative_pivots = pencil.below(-neutral);
+  mode.negative_pivots = pencil.below(-neutral) + pencil.without_mass();
   normalise(model, mode);
   return mode;
 }
 
-int modes_below(const Model& model, const State& state, double stiffness) { return Pencil(model, state).below(stiffness); }
+int modes_below(const Model& model, const State& state, double stiffness) {
+  Pencil pencil(model, state);
+  return pencil.below(stiffness) + pencil.without_mass();
+}
 
 std::optional<double> slowest_decay(const Model& model, const State& state, double softest) {
   const Model massive = with_unit_mass(model);

@@ -3,10 +3,10 @@
 //
 //   K phi = lambda M phi,      lambda [N/m^2]: restoring force per metre of line and metre of displacement,
 //
-// M: the length of line that a node carries, for r', times the square of the shorter element at it; for inner unknowns of jumps 0. lambda < 0: the
-// state is unstable along phi; |lambda| <= neutral: it is neutral, nothing holds it along phi. By Sylvester's law K - sigma M has as many negative
-// pivots as there are lambda below sigma: bisection in sigma brackets the least one (one pass of the chain each), and inverse iteration from below
-// it, where K - sigma M is positive definite, gives the mode.
+// M: the length of line that a node carries, for r', times the square of the shorter element at it; for inner unknowns of jumps 0 (where one gives
+// way by itself it counts as a direction, but has no mode). lambda < 0: the state is unstable along phi; |lambda| <= neutral: it is neutral, nothing
+// holds it along phi. By Sylvester's law K - sigma M has as many negative pivots as there are lambda below sigma: bisection in sigma brackets the
+// least one (one pass of the chain each), and inverse iteration from below it, where K - sigma M is positive definite, gives the mode.
 #pragma once
 
 #include <optional>

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double automatic_tolerance = 1e-10;
 constexpr double minimum_share = 1e-6;      // of the load on an element in Model::minimum_tension
-constexpr double unresolved_share = 0.1;    // of it: compression that the mesh does not resolve
 constexpr double neutral_share = 1e-2;      // of the load on an element over the length of the line: a thousandth of what lets a column fall
 constexpr double neutral_rounding = 1e-14;  // of EA/l
 constexpr TangentWeights static_weights{1.0, 0.0, 0.0};
@@ -135,18 +134,16 @@ void StaticSystem::go_back() {
   std::fill(state_.a.begin(), state_.a.end(), 0.0);
 }
 
-bool free_of_compression(const Model& model, const State& state, double roundoff) {
+bool free_of_compression(const Model& model, const State& state) {
+  const double roundoff = roundoff_force(model, state);
   for (int index = 0; index < static_cast<int>(model.lines.size()); ++index) {
     const Line& line = model.lines[index];
-    double neutral = 0.0, EI = model.element.EI[line.first_element];
-    for (int e = line.first_element; e < line.first_element + line.elements; ++e) {
-      neutral = std::max(neutral, unresolved_share / minimum_share * model.element.minimum_tension[e]);
-      EI = std::min(EI, model.element.EI[e]);
-    }
+    const auto EI = model.element.EI.begin() + line.first_element;
+    const double softest = *std::min_element(EI, EI + line.elements);
     const bool clamped = std::any_of(model.supports.begin(), model.supports.end(), [&](const Support& s) { return s.line == index && s.clamped; });
     const bool alone = line.from_hub < 0 && line.to_hub < 0;  // at a hub other lines may push sideways
-    const double euler = clamped && alone ? EI * std::pow(std::numbers::pi / (2.0 * line.length), 2) : 0.0;
-    if (observe_line(model, state, index).least_strain_tension < -std::max(neutral + roundoff, euler)) return false;
+    const double euler = clamped && alone ? softest * std::pow(std::numbers::pi / (2.0 * line.length), 2) : 0.0;
+    if (observe_line(model, state, index).least_strain_tension < -std::max(roundoff, euler)) return false;
   }
   return true;
 }
@@ -180,6 +177,10 @@ int negative_pivots_of_elastic_tangent(const Model& model, const State& state) {
   std::vector<double> r(elastic.unknowns);
   assembler.tangent(state, static_weights, TangentFloor{}, r, tangent);
   return negative_pivots(elastic, tangent);
+}
+
+int unstable_directions(const Model& model, const State& state) {
+  return free_of_compression(model, state) ? 0 : negative_pivots_of_elastic_tangent(model, state);
 }
 
 }  // namespace hawser

@@ -64,15 +64,15 @@ class StaticSystem : public CreepingSystem {
   FactorReport factor_report_;
 };
 
-/// No compression that could buckle a line. Below zero are allowed:
-///   - `roundoff` and a tenth of the load on one element: what the mesh leaves where the tension vanishes (a bare end). A line
-///     that really stands under compression carries at least the load on an element, growing with every further one;
-///   - in a beam with a clamped end, the Euler load of the cantilever, pi^2 EI / 4 L^2: less cannot buckle it.
-bool free_of_compression(const Model& model, const State& state, double roundoff);
+/// No compression that could buckle a line: none but rounding, or in a beam with a clamped end the Euler load of the cantilever, pi^2 EI/4 L^2.
+bool free_of_compression(const Model& model, const State& state);
 
 /// Negative pivots of the exact tangent of the loads that have a potential: axial, bending, weight, dead forces. Drag and
 /// applied moments are left out: their tangent is not symmetric, and its symmetric part says nothing about stability.
 int negative_pivots_of_elastic_tangent(const Model& model, const State& state);
+
+/// The same, and 0 without a look at the tangent where no compression could buckle a line.
+int unstable_directions(const Model& model, const State& state);
 
 /// The model without those loads.
 Model elastic_part(const Model& model);

@@ -46,7 +46,6 @@ struct Attempt {
   bool guarded = false;
   bool on_the_way = false;  // of a continuation: not so exact, and not reported
   int iterations = unfloored_iterations;
-  bool by_tangent = false;  // its result is certified by the tangent alone, however small its compression is
 };
 
 /// A state that was not accepted.
@@ -224,7 +223,7 @@ class StaticSolver {
     const NewtonReport result = creep(system, motion);
     record(system, result);
     report_.converged = result.converged() && enough <= 1.0;
-    if (report_.converged) certify(model_, system, false);
+    if (report_.converged) certify(model_);
     report(fmt::format("{}: {} after {} factorizations, residual {:.2g} N", name, result.converged() ? "at rest" : "in motion", result.factorizations,
                        result.residual));
     if (report_.converged && !report_.stable) remember(name, explain_failure(model_, state_, system, result, report_));
@@ -239,8 +238,8 @@ class StaticSolver {
       report_.iterations += branch.factorizations;
       report(describe(branch));
       if (!branch.reached) continue;
-      state_ = branch.state;  // unlike motion a branch also leads to what nothing comes to rest in
-      if ((converges(assembler_, "Newton from there", {.by_tangent = true}) && report_.stable) || stable_with_all_loads()) return true;
+      state_ = branch.state;
+      if ((converges(assembler_, "Newton from there", unfloored()) && report_.stable) || stable_with_all_loads()) return true;
     }
     return false;
   }
@@ -306,7 +305,7 @@ class StaticSolver {
     newton_options.inexact_matrix = !linear_->takes_unsymmetric() && !has_potential(model_);
     const NewtonReport result = attempt.guarded ? guarded_newton(system, newton_options) : newton(system, newton_options);
     record(system, result);
-    if (result.converged()) certify(assembler.model(), system, attempt.by_tangent);
+    if (result.converged()) certify(assembler.model());
     if (attempt.on_the_way) return result.converged();
     const std::string outcome = result.converged() ? verdict() : "not converged";
     report(fmt::format("{}: {} after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, result.factorizations, report_.residual,
@@ -360,9 +359,8 @@ class StaticSolver {
   }
 
   /// Stable: no knot, and no compression that could buckle a line, or no negative pivot of the exact elastic tangent.
-  void certify(const Model& model, StaticSystem& system, bool by_tangent) {
-    const bool tension = !by_tangent && free_of_compression(model, state_, system.roundoff());
-    report_.negative_pivots = tension ? 0 : negative_pivots_of_elastic_tangent(model, state_);
+  void certify(const Model& model) {
+    report_.negative_pivots = unstable_directions(model, state_);
     report_.stable = report_.negative_pivots == 0 && !find_knot(model, state_);
   }
 

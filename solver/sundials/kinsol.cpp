@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <optional>
 
-#include "solver/model_branch.hpp"
 #include "solver/static_failure.hpp"
 #include "solver/static_system.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,7 @@
 #include "bench/trial_networks.hpp"
 #include "bench/trial_scenes.hpp"
 #include "bench/trial_spectrum.hpp"
+#include "solver/bordered_solver.hpp"
 #include "solver/static_system.hpp"
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/static_solution.hpp"
@@ -70,6 +72,49 @@ TEST(SoftestMode, AnUnstrainedStringIsNeutralAcross) {
   EXPECT_EQ(mode->negative_pivots, 0);
   EXPECT_LE(std::abs(mode->stiffness), 1e-6 * 1000.0 / 100.0);
   EXPECT_NEAR(mode->direction.x(), 0.0, 1e-6);
+}
+
+TEST(SoftestMode, OfACompressedStringWithAJointIsTheLeastEigenvalueOfItsCondensedTangent) {
+  // In the element left of the load the string has a slope of its own there, which gives way too, in both directions across; it has no mass.
+  const Model model = build_model(SceneBuilder()
+                                      .dry()
+                                      .type(line_type("line", 1.0e6, 0.0))
+                                      .fixed("a", {0, 0, 0})
+                                      .fixed("b", {9.999, 0, 0})
+                                      .line("a", "b", ModelChoice::cable)
+                                      .section("line", 10.0, 6)
+                                      .load(5.0, weight(1e-9))
+                                      .scene);
+  ASSERT_EQ(model.joints.size(), 1u);
+  const State state = static_start(model, StaticStart::straight);
+  const Assembler assembler(model);
+  Tangent tangent = assembler.make_tangent();
+  std::vector<double> r(model.unknowns);
+  assembler.tangent(state, {}, {}, r, tangent);
+  tangent.symmetrize();
+  ASSERT_EQ(tangent.negative_inner_pivots(), 2);
+  const auto n = static_cast<Eigen::Index>(model.dofs);
+  Eigen::MatrixXd K(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n, i);
+    multiply(tangent, {unit.data(), model.dofs}, {K.col(i).data(), model.dofs});
+  }
+  // Ends carry half an element, and do not move.
+  std::vector<Eigen::Index> moving;
+  Eigen::VectorXd root(n);
+  const double l = model.element.length[0];
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const bool end = i < 6 || i >= n - 6;
+    root[i] = std::sqrt(end ? 0.5 * l : l) * (i % 6 < 3 ? 1.0 : l);
+    if (!end || i % 6 >= 3) moving.push_back(i);
+  }
+  const Eigen::MatrixXd scaled = root.cwiseInverse().asDiagonal() * K * root.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled(moving, moving));
+  const double least = eigen.eigenvalues()[0];
+  const std::optional<StabilityMode> mode = softest_mode(model, state, 100.0);
+  ASSERT_TRUE(mode);
+  EXPECT_NEAR(mode->stiffness, least, 1e-6 * std::abs(least));
+  EXPECT_EQ(mode->negative_pivots, 2 + (eigen.eigenvalues().array() < 0.0).count());
 }
 
 TEST(SoftestMode, AHangingCatenaryHasNone) {
