@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/trial_check.hpp"
+#include "bench/trial.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Random numbers and parts of a scene for the trial of statics (trial_scenes.hpp).
+// Random numbers and parts of a scene for the trial of statics (trial.hpp).
 //
 // Scene n of a seed is always the same: its numbers come from a generator of its own, seeded with (seed, n), by arithmetic alone.
 #pragma once
@@ -14,24 +14,9 @@
 
 #include "assembly/environment/seabed_surface.hpp"
 #include "assembly/scene.hpp"
+#include "bench/trial.hpp"
 
 namespace hawser::bench {
-
-/// What is known of the answer beside its equations.
-enum class Known {
-  nothing,
-  catenary,    // one uniform line without EI in still water between held ends: the elastic catenary
-  hanging,     // a free end in still water: straight down (or up), tension = what hangs below
-  catenaries,  // uniform lines without EI in still water that meet at free points: each the elastic catenary between its ends
-  equal_legs   // the same, equal and evenly around the axis z, on which the free point lies
-};
-
-struct Trial {
-  Scene scene;
-  std::string kind;
-  Known known = Known::nothing;
-  bool degenerate = false;  // its shape is not unique or its mesh cannot follow it: compare end forces and energy only
-};
 
 class TrialDraw {
  public:

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "solver/linear/dense_spectrum.hpp"
 
 namespace hawser {
 namespace {
@@ -177,8 +178,8 @@ int negative_hub_pivots(const Tangent& tangent) {
   const Eigen::SparseMatrix<double>& S = solver.hub_stiffness();
   if (S.nonZeros() == 0) return 1;  // the chains have no inverse: nothing shows that it is stable
   if (S.rows() < dense_below) {
-    const Eigen::MatrixXd dense = 0.5 * (Eigen::MatrixXd(S) + Eigen::MatrixXd(S).transpose());
-    return static_cast<int>((Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues().array() < 0.0).count());
+    const Eigen::MatrixXd dense(S);
+    return negative_eigenvalues(0.5 * (dense + dense.transpose()));
   }
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(S);
   return factors.info() == Eigen::Success ? static_cast<int>((factors.vectorD().array() < 0.0).count()) : 1;

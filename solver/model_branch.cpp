@@ -11,7 +11,6 @@ namespace {
 
 constexpr double automatic_tolerance = 1e-10;  // as statics
 constexpr TangentWeights static_weights{1.0, 0.0, 0.0};
-constexpr double neutral_rounding = 1e-14;  // of EA/l^2, as in static_system.cpp
 
 /// Least tensions kept where the tension vanishes, as in statics; the exact tangent where a line is compressed.
 TangentFloor floor_for(const Model& model, const State& state) {
@@ -53,11 +52,7 @@ std::vector<double> product_weights(const Model& model) {
 }
 
 /// Up to this stiffness [N/m^2] a mode is neutral or rounding.
-double little_stiffness(const Model& model, double reference_force) {
-  double stiffest = 0.0;
-  for (std::size_t e = 0; e < model.element.EA.size(); ++e) stiffest = std::max(stiffest, model.element.EA[e] / std::pow(model.element.length[e], 2));
-  return neutral_stiffness(model, reference_force) + neutral_rounding * stiffest;
-}
+double little_stiffness(const Model& model, double reference_force) { return neutral_stiffness(model, reference_force) + rounding_stiffness(model); }
 
 /// Prescribed unknowns, and those of hub ends beyond the first one, which only repeat it.
 std::vector<char> held_unknowns(const Model& model) {

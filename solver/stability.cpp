@@ -1,12 +1,12 @@
 #include "solver/stability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include "assembly/assembler.hpp"
 #include "solver/bordered_solver.hpp"
+#include "solver/linear/dense_spectrum.hpp"
 #include "solver/norms.hpp"
 #include "solver/static_system.hpp"
 
@@ -14,12 +14,14 @@ namespace hawser {
 namespace {
 
 constexpr double neutral_share = 1e-6;
-constexpr double bracket_width = 1e-3;  // relative
-constexpr int most_doublings = 60;      // of the first bracket
+constexpr double rounding_share = 1e-14;  // of the stiffness of stretching
+constexpr double bracket_width = 1e-3;    // relative
+constexpr int most_doublings = 60;        // of the first bracket
 constexpr int inverse_iterations = 12;
 constexpr int krylov_least = 40, krylov_most = 300;  // vectors
 constexpr int krylov_numbers = 6'000'000;            // in all of them, where that leaves more than the least
 constexpr double krylov_breakdown = 1e-12;
+constexpr double resolved = 1e-12;      // of the largest eigenvalue of (K - sigma M)^-1 M: less is rounding, as of what has no mass
 constexpr double ritz_accuracy = 1e-3;  // of an eigenvalue of (K - sigma M)^-1 M
 
 /// The diagonal of M, over the chain unknowns; zero where a support holds.
@@ -139,12 +141,12 @@ class Krylov {
   std::vector<std::complex<double>> values() const {
     std::vector<std::complex<double>> values;
     if (size_ == 0) return values;
-    const Eigen::EigenSolver<Eigen::MatrixXd> eigen(H_.topLeftCorner(size_, size_));
-    const Eigen::MatrixXcd vectors = eigen.eigenvectors();
+    const Eigenpairs pairs = eigenpairs(H_.topLeftCorner(size_, size_));
+    const double largest = pairs.values.cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < size_; ++i) {
-      const std::complex<double> theta = eigen.eigenvalues()[i];
-      const double error = H_(size_, size_ - 1) * std::abs(vectors(size_ - 1, i)) / vectors.col(i).norm();
-      if (error <= ritz_accuracy * std::abs(theta)) values.push_back(sigma_ + 1.0 / theta);
+      const std::complex<double> theta = pairs.values[i];
+      const double error = H_(size_, size_ - 1) * std::abs(pairs.vectors(size_ - 1, i));
+      if (std::abs(theta) > resolved * largest && error <= ritz_accuracy * std::abs(theta)) values.push_back(sigma_ + 1.0 / theta);
     }
     return values;
   }
@@ -222,6 +224,12 @@ bool has_potential(const Model& model) { return !flows(model) && !model.rubs() &
 
 double neutral_stiffness(const Model& model, double reference_force) { return neutral_share * reference_force / std::pow(longest_line(model), 2); }
 
+double rounding_stiffness(const Model& model) {
+  double stretching = 0.0;
+  for (int e = 0; e < model.total_elements(); ++e) stretching = std::max(stretching, model.element.EA[e] / std::pow(model.element.length[e], 2));
+  return rounding_share * stretching;
+}
+
 std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force) {
   const double neutral = neutral_stiffness(model, reference_force);
   if (!(neutral > 0.0)) return std::nullopt;
@@ -267,7 +275,7 @@ std::optional<double> decay_with_all_loads(const Model& model, const State& stat
   const double neutral = neutral_stiffness(model, reference_force);
   const std::optional<StabilityMode> mode = softest_mode(model, state, reference_force);
   const std::optional<double> slowest = slowest_decay(model, state, mode ? mode->stiffness : neutral);
-  return slowest && *slowest > neutral ? slowest : std::nullopt;
+  return slowest && *slowest > std::min(neutral, rounding_stiffness(model)) ? slowest : std::nullopt;
 }
 
 }  // namespace hawser

@@ -42,10 +42,14 @@ bool has_potential(const Model& model);
 /// Below it [N/m^2] a mode is neutral: 1e-6 reference_force/L^2 with the longest line L. `reference_force` [N]: of the statics (solver/norms.hpp).
 double neutral_stiffness(const Model& model, double reference_force);
 
+/// What rounding leaves [N/m^2] of the stiffest stretching: 1e-14 EA/l^2.
+double rounding_stiffness(const Model& model);
+
 /// The mode of least stiffness where the state is unstable or neutral along it; nothing where it is stable.
 std::optional<StabilityMode> softest_mode(const Model& model, const State& state, double reference_force);
 
-/// slowest_decay where that is more than neutral_stiffness: the equilibrium is stable with all loads.
+/// slowest_decay where that is more than neutral_stiffness or more than rounding_stiffness (the largest force of a network is no measure of a slack
+/// line in it): the equilibrium is stable with all loads.
 std::optional<double> decay_with_all_loads(const Model& model, const State& state, double reference_force);
 
 /// How many modes are softer than this stiffness [N/m^2].

@@ -252,7 +252,7 @@ class StaticSolver {
       const std::optional<StabilityMode> mode = softest_mode(model_, pushed, unstable_[k].report.reference_force);
       if (!mode) continue;
       for (std::size_t i = 0; i < pushed.q.size(); ++i) pushed.q[i] += size * mode->shape[i];
-      if (by_creep("an unstable equilibrium, pushed along its softest mode", pushed, creep_iterations / 4)) return true;
+      if (by_creep("an unstable equilibrium, pushed along its softest mode", pushed, creep_iterations / 4) || stable_with_all_loads()) return true;
     }
     return false;
   }

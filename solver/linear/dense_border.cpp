@@ -3,18 +3,10 @@
 #include <cassert>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
+
+#include "solver/linear/dense_spectrum.hpp"
 
 namespace hawser {
-
-namespace {
-
-int negative_eigenvalues(const Eigen::MatrixXd& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric, Eigen::EigenvaluesOnly);
-  return static_cast<int>((eigen.eigenvalues().array() < 0.0).count());
-}
-
-}  // namespace
 
 void DenseBorder::analyze(const BlockTridiagonal& pattern, int border) {
   chains_.analyze(pattern);

@@ -1,10 +1,11 @@
 // Scenes of the public trial of statics (bench/README.md): the first 500 of one line, the first 56 networks. None fails, none is wrong.
 // ./dev bench runs 10 000 and 1400, of which some fail: bench/README.md says which.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "bench/trial_check.hpp"
+#include "bench/trial.hpp"
 
 namespace hawser::bench {
 namespace {
@@ -19,8 +20,8 @@ struct Slice {
 
 std::vector<Slice> slices() {
   std::vector<Slice> all;
-  for (int kind = 0; kind < TrialScenes::kinds; ++kind) all.push_back({draw_trial, kind, TrialScenes::kinds, 500});
-  for (int kind = 0; kind < TrialNetworks::kinds; ++kind) all.push_back({draw_network, kind, TrialNetworks::kinds, 4 * TrialNetworks::kinds});
+  for (int kind = 0; kind < trial_kinds; ++kind) all.push_back({draw_trial, kind, trial_kinds, 500});
+  for (int kind = 0; kind < network_kinds; ++kind) all.push_back({draw_network, kind, network_kinds, 4 * network_kinds});
   return all;
 }
 
@@ -67,6 +68,8 @@ constexpr Missed missed[] = {
     {"directions of a bare end that nothing holds", draw_trial, 2, 1150},
     {"a network with a compressed line that drag holds", draw_network, 1, 335},
     {"legs on a bed with friction: only the branch in the slip leads there", draw_network, 1, 997, true},
+    {"a slack ring beside lines of 7 GN", draw_network, 1, 905},
+    {"another one", draw_network, 1, 149},
     {"a ring that folds in a current", draw_network, 1, 1283},
     {"a ring that folds in a current", draw_network, 1, 1395},
 };
@@ -90,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, StaticTrialMissed, ::testing::ValuesIn(missed),
 
 TEST(StaticTrialScenes, AreTheSameEveryTime) {
   for (const auto draw : {draw_trial, draw_network})
-    for (int number = 0; number < TrialScenes::kinds; ++number) {
+    for (int number = 0; number < trial_kinds; ++number) {
       const Model a = build_model(draw(3, number).scene), b = build_model(draw(3, number).scene);
       EXPECT_EQ(a.element.length, b.element.length);
       EXPECT_EQ(a.element.EA, b.element.EA);
@@ -103,13 +106,13 @@ TEST(StaticTrialCheck, FindsWhatIsWrongWithANetwork) {
   const Model model = build_model(trial.scene);
   State state;
   ASSERT_TRUE(solve_static(Assembler(model), {}, state).converged);
-  EXPECT_FALSE(TrialCheck(trial, model, state).complaint());
+  EXPECT_FALSE(complaint(trial, model, state));
   // The equilibrium under a body that is one part in a million heavier.
   Trial heavier = trial;
   *heavier.scene.points[0].body.wet_weight *= 1.000001;
   const Model other = build_model(heavier.scene);
   ASSERT_TRUE(solve_static(Assembler(other), {}, state).converged);
-  EXPECT_TRUE(TrialCheck(trial, model, state).complaint());
+  EXPECT_TRUE(complaint(trial, model, state));
 }
 
 TEST(StaticTrialCheck, FindsWhatIsWrongWithAnAnswer) {
@@ -118,16 +121,16 @@ TEST(StaticTrialCheck, FindsWhatIsWrongWithAnAnswer) {
   const Assembler assembler(model);
   State state;
   ASSERT_TRUE(solve_static(assembler, {}, state).converged);
-  EXPECT_FALSE(TrialCheck(trial, model, state).complaint());
+  EXPECT_FALSE(complaint(trial, model, state));
   State moved = state;
   moved.q[model.dof(0, 3)] += 1e-3;
-  EXPECT_TRUE(TrialCheck(trial, model, moved).complaint());
+  EXPECT_TRUE(complaint(trial, model, moved));
   // The equilibrium of a line that is one part in a thousand heavier.
   Trial heavier = trial;
   heavier.scene.line_types[0].wet_weight = 1.001 * *trial.scene.line_types[0].wet_weight;
   const Model other = build_model(heavier.scene);
   ASSERT_TRUE(solve_static(Assembler(other), {}, state).converged);
-  EXPECT_TRUE(TrialCheck(trial, model, state).complaint());
+  EXPECT_TRUE(complaint(trial, model, state));
 }
 
 }  // namespace

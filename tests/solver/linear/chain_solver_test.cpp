@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/linear/dense_spectrum.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "tests/solver/linear/random_chains.hpp"
 
@@ -92,7 +93,7 @@ TEST(ChainSolver, CountsTheNegativeEigenvaluesOfASymmetricMatrixInEitherForm) {
     for (const Chain& c : a.chains())
       for (int i = 0; i < c.nodes; ++i)
         for (int k = 0; k < c.block; ++k) a.D(c, i)[k * (c.block + 1)] -= 0.05 * seed;
-    const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(test::dense(a), Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(test::dense(a));
     for (const Symmetry symmetry : {Symmetry::unknown, Symmetry::symmetric}) {
       a.declare(symmetry);
       const auto solver = make_linear_solver(LinearSolverKind::chain);

@@ -3,20 +3,21 @@
 //   K x = kappa M x,    stable where every kappa has a positive real part:  M x' = -K x decays
 //
 // K and M are dense, by central differences of the residual; M is a unit mass per metre of line. Nothing of solver/stability.cpp is used.
-#pragma once
+#include "bench/trial.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <complex>
 #include <vector>
 
 #include "assembly/assembler.hpp"
+#include "solver/linear/dense_spectrum.hpp"
 #include "solver/static_system.hpp"
 
 namespace hawser::bench {
+namespace {
 
 /// Unknowns that may move, those of the ends at one hub together.
-inline std::vector<std::vector<std::size_t>> motions(const Model& model) {
+std::vector<std::vector<std::size_t>> motions(const Model& model) {
   std::vector<std::vector<std::size_t>> motions;
   std::vector<char> held(model.unknowns, 0);
   for (const Support& support : model.supports) {
@@ -39,8 +40,10 @@ inline std::vector<std::vector<std::size_t>> motions(const Model& model) {
   return motions;
 }
 
-/// The least real part of the spectrum [N/m^2]. Directions of r' at clamps count as held: their stretch is stiff.
-inline double least_decay(const Model& model, const State& state) {
+}  // namespace
+
+/// Directions of r' at clamps count as held: their stretch is stiff.
+double least_decay(const Model& model, const State& state) {
   constexpr double resolved = 1e-9;  // of the longest decay time: stretching is below it, and what rounding leaves of it has any sign
   constexpr double nudge = 1e-7;     // m: far below a slip, far above the rounding of coordinates
   const Model massive = with_unit_mass(model);
@@ -65,7 +68,7 @@ inline double least_decay(const Model& model, const State& state) {
   };
   differentiate(&State::q, nudge, K);
   differentiate(&State::a, 1.0, M);
-  const Eigen::VectorXcd decay_times = K.partialPivLu().solve(M).eigenvalues();  // 1/kappa: the small kappa, which count, are the accurate ones
+  const Eigen::VectorXcd decay_times = eigenvalues(K.partialPivLu().solve(M));  // 1/kappa: the small kappa, which count, are the accurate ones
   const double longest = decay_times.cwiseAbs().maxCoeff();
   double least = HUGE_VAL;
   for (const std::complex<double>& time : decay_times)

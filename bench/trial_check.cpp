@@ -2,17 +2,16 @@
 //
 //   equations    the residual, assembled anew, is below 1e-10 of the largest reaction (or of what rounding leaves)
 //   stability    no part of the line is compressed, or the elastic tangent has no negative pivot, or all eigenvalues of the whole tangent have
-//                positive real parts (trial_spectrum.hpp)
-//   bending      no element that is too stiff to be turned by the forces, EI > F h^2, is squeezed to half its length anywhere: where r' passes
-//   through
-//                zero a line turns back and shows no curvature
+//                positive real parts (trial_spectrum.cpp)
+//   bending      no element that is too stiff to be turned by the forces, EI > F h^2, is squeezed to half its length anywhere: where r'
+//                passes through zero a line turns back and shows no curvature
 //   balance      reactions + weight + bodies + drag + bed = 0, the loads integrated here along the shape
 //   hubs         the end forces of the lines that meet at a free point and the load there = 0
 //   catenary     closed form: span under the computed end force, and the minimum of the energy from its dual,
 //                  E = F(L).D - int ( |F| + |F|^2/2EA ) ds,   F = F0 - q s
 //   hanging      closed form: straight, tension = what hangs below
 //   equal legs   closed form: the free point is on their axis
-#pragma once
+#include "bench/trial.hpp"
 
 #include <fmt/format.h>
 #include <time.h>
@@ -26,9 +25,6 @@
 #include "assembly/observables.hpp"
 #include "assembly/seabed.hpp"
 #include "assembly/seabed_bodies.hpp"
-#include "bench/trial_networks.hpp"
-#include "bench/trial_scenes.hpp"
-#include "bench/trial_spectrum.hpp"
 #include "solver/newton.hpp"
 #include "solver/norms.hpp"
 #include "solver/static_start_catenary.hpp"
@@ -37,6 +33,7 @@
 #include "solver/statics.hpp"
 
 namespace hawser::bench {
+namespace {
 
 class TrialCheck {
  public:
@@ -48,8 +45,7 @@ class TrialCheck {
     assembler.project(residual_);
   }
 
-  /// What is wrong with the answer; `loose`: of one that the solver says it took to 1e-6 only.
-  std::optional<std::string> complaint(bool loose = false) const {
+  std::optional<std::string> complaint(bool loose) const {
     for (const auto& check : {equations(loose ? 1e-6 : 1e-10), stability(), bending(), balance(), hubs(loose ? 1e-6 : 1e-10), closed_form()})
       if (check) return check;
     return std::nullopt;
@@ -250,23 +246,19 @@ class TrialCheck {
   Vec3 reactions_ = Vec3::Zero();
 };
 
-struct TrialOutcome {
-  bool converged = false;
-  bool loose = false;                // converged to 1e-6 of the largest reaction only, and the report says so
-  std::optional<std::string> wrong;  // converged, but not an answer
-  int factorizations = 0;
-  double seconds = 0.0;  // processor time of solve_static
-  StaticReport report;
-};
-
-inline double processor_seconds() {
+double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Solves a scene from nothing and checks the answer.
-inline TrialOutcome run_trial(const Trial& trial) {
+}  // namespace
+
+std::optional<std::string> complaint(const Trial& trial, const Model& model, const State& state, bool loose) {
+  return TrialCheck(trial, model, state).complaint(loose);
+}
+
+TrialOutcome run_trial(const Trial& trial) {
   const Model model = build_model(trial.scene);
   const Assembler assembler(model);
   TrialOutcome outcome;
@@ -277,7 +269,7 @@ inline TrialOutcome run_trial(const Trial& trial) {
   outcome.converged = outcome.report.converged;
   outcome.factorizations = outcome.report.iterations;
   outcome.loose = outcome.converged && outcome.report.residual > 1e-10 && outcome.report.stages.back().find("looser tolerance") != std::string::npos;
-  if (outcome.converged) outcome.wrong = TrialCheck(trial, model, state).complaint(outcome.loose);
+  if (outcome.converged) outcome.wrong = complaint(trial, model, state, outcome.loose);
   return outcome;
 }
 

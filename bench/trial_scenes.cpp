@@ -1,7 +1,5 @@
 // Random scenes of one line for the public trial of statics, drawn over what a user may sensibly ask (README.md, "The trial of statics").
 // The kind goes round with the number of the scene. Every scene has an equilibrium; strains from its loads stay below a third.
-#pragma once
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,20 +8,19 @@
 #include "bench/trial_draw.hpp"
 
 namespace hawser::bench {
+namespace {
 
 class TrialScenes : private TrialDraw {
  public:
   using TrialDraw::TrialDraw;
 
-  static constexpr int kinds = 20;
-
   Trial draw(std::uint64_t number) {
-    constexpr std::array<void (TrialScenes::*)(), kinds> kind{
+    constexpr std::array<void (TrialScenes::*)(), trial_kinds> kind{
         &TrialScenes::slack_span,  &TrialScenes::taut_span, &TrialScenes::vertical,   &TrialScenes::ends_at_one_point, &TrialScenes::buoyant,
         &TrialScenes::loaded_span, &TrialScenes::pipe,      &TrialScenes::current,    &TrialScenes::loaded_current,    &TrialScenes::hanging,
         &TrialScenes::bare_end,    &TrialScenes::body_end,  &TrialScenes::tow,        &TrialScenes::mooring,           &TrialScenes::slack_mooring,
         &TrialScenes::laid,        &TrialScenes::laid_pipe, &TrialScenes::bathymetry, &TrialScenes::lazy_wave,         &TrialScenes::let_down};
-    (this->*kind[number % kinds])();
+    (this->*kind[number % trial_kinds])();
     return std::move(trial_);
   }
 
@@ -242,6 +239,8 @@ class TrialScenes : private TrialDraw {
   void bar_or_cable() { line().model = chance(0.2) ? ModelChoice::bar : ModelChoice::automatic; }
 };
 
-inline Trial draw_trial(std::uint64_t seed, std::uint64_t number) { return TrialScenes(seed, number).draw(number); }
+}  // namespace
+
+Trial draw_trial(std::uint64_t seed, std::uint64_t number) { return TrialScenes(seed, number).draw(number); }
 
 }  // namespace hawser::bench

@@ -1,7 +1,5 @@
 // Random scenes of lines that meet at free points for the public trial of statics (README.md, "The trial of statics").
 // The kind goes round with the number of the scene. Every scene has an equilibrium; the loads strain a line by less than a third.
-#pragma once
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -13,21 +11,20 @@
 #include "bench/trial_draw.hpp"
 
 namespace hawser::bench {
+namespace {
 
 class TrialNetworks : private TrialDraw {
  public:
   using TrialDraw::TrialDraw;
 
-  static constexpr int kinds = 14;
-
   Trial draw(std::uint64_t number) {
-    constexpr std::array<void (TrialNetworks::*)(), kinds> kind{
+    constexpr std::array<void (TrialNetworks::*)(), network_kinds> kind{
         &TrialNetworks::equal_legs,    &TrialNetworks::legs,         &TrialNetworks::legs_in_a_current,
         &TrialNetworks::moored_buoy,   &TrialNetworks::buoy_current, &TrialNetworks::two_buoys,
         &TrialNetworks::anchor_bridle, &TrialNetworks::towed_bridle, &TrialNetworks::row,
         &TrialNetworks::ring,          &TrialNetworks::grid,         &TrialNetworks::tree,
         &TrialNetworks::pipes,         &TrialNetworks::any_network};
-    (this->*kind[number % kinds])();
+    (this->*kind[number % network_kinds])();
     stretches(load_);
     return std::move(trial_);
   }
@@ -335,6 +332,8 @@ class TrialNetworks : private TrialDraw {
   double load_ = 0.0;  // N, of all lines and bodies
 };
 
-inline Trial draw_network(std::uint64_t seed, std::uint64_t number) { return TrialNetworks(seed, number).draw(number); }
+}  // namespace
+
+Trial draw_network(std::uint64_t seed, std::uint64_t number) { return TrialNetworks(seed, number).draw(number); }
 
 }  // namespace hawser::bench
