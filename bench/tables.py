@@ -207,6 +207,20 @@ def methods(r):
           ['scene', 'Newton, ms', 'factorizations', 'KINSOL, ms', 'factorizations'], rows)
 
 
+STARTS = {'newton/catenary': 'Newton, catenary', 'newton/straight': 'Newton, straight',
+          'kinsol/catenary': 'KINSOL, catenary', 'kinsol/straight': 'KINSOL, straight'}
+
+
+def equilibria(r):
+    sizes = r.sizes('equilibrium/newton/catenary')
+    rows = []
+    for route, label in STARTS.items():
+        runs = [r.runs.get(f'equilibrium/{route}/{n}') for n in sizes]
+        rows.append([label] + [f'{number(run["cpu_time"])} ({run["factorizations"]:.0f})' if run and 'factorizations' in run else '' for run in runs])
+    if sizes:
+        table('`catenary-5000` by method and start, milliseconds (factorizations):', ['elements'] + [power(n) for n in sizes], rows)
+
+
 def write(folder, name, head, rows):
     with open(os.path.join(folder, name), 'w') as file:
         file.write(head + '\n')
@@ -226,6 +240,9 @@ def write_data(r, context, folder):
            for kind in ('full', 'reused') for solver in SOLVERS for n in r.sizes(f'newton/{kind}/{solver}/beam')])
     write(folder, 'stages.csv', 'stage,elements,microseconds_per_element',
           [(stage, n, f'{r.microseconds(f"{name}/{n}"):.4e}') for stage, name in STAGES.items() for n in r.sizes(name)])
+    write(folder, 'equilibria.csv', 'route,elements,microseconds_per_element',
+          [(route, n, f'{r.microseconds(f"equilibrium/{route}/{n}"):.4e}') for route in STARTS for n in r.sizes(f'equilibrium/{route}')
+           if r.microseconds(f'equilibrium/{route}/{n}')])
     sizes = (1000, 10000, 100000)
     write(folder, 'threads.csv', 'stage,' + ','.join(f'wall microseconds per element of {n} with {count}' for n in sizes for count in (1, 2)),
           [[stage] + [r.microseconds(f'threads/{stage}/{n}/{count}', '/real_time') for n in sizes for count in (1, 2)]
@@ -252,6 +269,7 @@ def main():
     scenes(r)
     offsets(r)
     methods(r)
+    equilibria(r)
     if chosen.data:
         write_data(r, context, chosen.data)
 
