@@ -41,7 +41,8 @@ void add_friction(const SeabedLaw& law, const Normal& bed, double N, double dN, 
   const double size = bed.e.norm(), difference = law.friction_axial - law.friction_lateral;
   const Vec3 u = bed.projected(h), along = bed.lifted(a);
   const Mat3 du = bed.projected_by_place(h);
-  const double m = std::sqrt(u.squaredNorm() + law.slip * law.slip), length = std::sqrt(along.squaredNorm() + upright_slope * upright_slope);
+  const double m = sliding_length(law, u.squaredNorm()), slope = sliding_length_slope(law, u.squaredNorm()),
+               length = std::sqrt(along.squaredNorm() + upright_slope * upright_slope);
   const Vec3 t = along / length;
   const Vec3 w = law.friction_lateral * u + difference * t.dot(u) * t;
   Mat3 dw = law.friction_lateral * du + difference * t * (t.transpose() * du);
@@ -51,7 +52,7 @@ void add_friction(const SeabedLaw& law, const Normal& bed, double N, double dN, 
     const double more = tt > 0.0 ? (std::sqrt(law.friction_lateral + difference * tt) - lateral) / tt : 0.0;
     const Mat3 plane = Mat3::Identity() - bed.e * bed.e.transpose() / bed.e.squaredNorm(),
                root = (lateral * Mat3::Identity() + more * t * t.transpose()) * plane;
-    out.d_r -= N * size / m * root.transpose() * (Mat3::Identity() - u * u.transpose() / (m * m)) * root;
+    out.d_r -= N * size / m * root.transpose() * (Mat3::Identity() - slope / m * u * u.transpose()) * root;
     return;
   }
   if (kind == FrictionTangent::exact) {
@@ -61,7 +62,7 @@ void add_friction(const SeabedLaw& law, const Normal& bed, double N, double dN, 
     out.d_a -= N * size / m * turned(across * bed.lift());
     out.d_r -= w / m * (dN * size * bed.gap_gradient + N / size * bed.de.transpose() * bed.e).transpose();
   }
-  if (kind != FrictionTangent::secant) dw -= w * (u.transpose() * du) / (m * m);
+  if (kind != FrictionTangent::secant) dw -= slope / m * w * (u.transpose() * du);
   out.d_r -= N * size / m * dw;
 }
 

@@ -103,7 +103,7 @@ TEST(SeabedLaw, NeverPullsHoweverFastTheLineRises) {
   EXPECT_EQ(rising(100.0), 0.0);
 }
 
-TEST(SeabedLaw, FrictionTendsToCoulombAxiallyAndLaterally) {
+TEST(SeabedLaw, FrictionBeyondTheSlipIsCoulombsAxiallyAndLaterally) {
   const SeabedSurface level(-10.0);
   const Vec3 lay(0.0, 0.0, -10.0);
   const V3<double> zero{{0, 0, 0}}, along{{1, 0, 0}};
@@ -111,10 +111,24 @@ TEST(SeabedLaw, FrictionTendsToCoulombAxiallyAndLaterally) {
   const double N = 200.0;  // 0.1 m deep
   const auto axial = contact_force(l, level.at(5.0, 0.0), V3<double>{{5.0, 0.0, -10.1}}, along, zero, &lay);
   const auto lateral = contact_force(l, level.at(0.0, -5.0), V3<double>{{0.0, -5.0, -10.1}}, along, zero, &lay);
-  // 5 m of displacement are 250 slips: 1 - (slip/u)^2/2 of the limit; the tangent is shortened by upright_slope^2/2.
-  EXPECT_NEAR(axial[0], -0.3 * N, 1e-4 * N);
-  EXPECT_NEAR(lateral[1], 0.7 * N, 1e-4 * N);
+  // The tangent is shortened by upright_slope^2/2.
+  EXPECT_NEAR(axial[0], -0.3 * N, upright_slope * upright_slope * 0.4 * N);
+  EXPECT_NEAR(lateral[1], 0.7 * N, 1e-14 * N);
   EXPECT_EQ(lateral[0], 0.0);
+}
+
+TEST(SeabedLaw, FrictionIsFullAtTheSlipWithTwoContinuousDerivatives) {
+  const SeabedLaw l = law(0, 0, 0.4, 0.4);
+  const auto share = [&](double x) { return x * l.slip / sliding_length(l, x * x * l.slip * l.slip); };
+  EXPECT_NEAR(share(1e-9), 15.0 / 8.0 * 1e-9, 1e-24);
+  EXPECT_DOUBLE_EQ(friction_stiffness(l), 0.4 * 15.0 / 8.0 / l.slip);
+  for (const double x : {1.0, 1.001, 50.0}) EXPECT_NEAR(share(x), 1.0, 1e-15);
+  // The third derivative is 15 there: 1 - f = 5/2 (1 - x)^3 to the next order.
+  for (const double h : {1e-2, 1e-3}) EXPECT_NEAR((1.0 - share(1.0 - h)) / (2.5 * h * h * h), 1.0, h);
+  double missing = 0.0;
+  constexpr int n = 1000;
+  for (int i = 0; i < n; ++i) missing += (1.0 - share((i + 0.5) / n)) / n;
+  EXPECT_NEAR(missing, 5.0 / 16.0, 1e-6);
 }
 
 TEST(SeabedLaw, ALineThatSinksNormallyToASlopeDoesNotRub) {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <functional>
+
+#include "solver/linear/dense_spectrum.hpp"
 
 namespace hawser {
 namespace {
@@ -47,8 +49,7 @@ class SmallBranch : public BranchSystem {
     return std::isfinite(response.parameter[0]);
   }
   int negative_pivots(std::span<const double> q) override {
-    const Eigen::EigenSolver<Matrix> eigen(problem_.tangent(at(q), p_));
-    return static_cast<int>((eigen.eigenvalues().real().array() < 0.0).count());
+    return static_cast<int>((eigenvalues(problem_.tangent(at(q), p_)).real().array() < 0.0).count());
   }
   double product(std::span<const double> a, std::span<const double> b) const override { return a[0] * b[0] + a[1] * b[1]; }
   std::size_t strongest(std::span<const double> motion) const override { return std::abs(motion[0]) >= std::abs(motion[1]) ? 0 : 1; }
