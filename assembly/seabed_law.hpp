@@ -103,10 +103,10 @@ struct ContactForce {
 enum class FrictionTangent {
   exact,
   /// For stability, where a part without potential says nothing: symmetric. The normal is that of the height too, which it is but for the
-  /// smoothing of a grid; friction is N |e| sqrt(D) (I - u u^T/m^2) sqrt(D)/m, m^2 = u.u + d^2: that of the law where D is a number, u lies along or
-  /// across the line, or the line sticks, and never negative (the symmetric part of D (I - u u^T/m^2) is), without the change of N and t.
+  /// smoothing of a grid; friction is N |e| sqrt(D) (I - (m'/m |u|) u u^T) sqrt(D)/m: that of the law where D is a number, u lies along or
+  /// across the line, or the line sticks, and never negative (the symmetric part of D (I - (m'/m |u|) u u^T) is), without the change of N and t.
   frozen,
-  secant  // N |e| D/sqrt(u.u + d^2): positive also where the line slides, so that Newton does not overshoot from far away
+  secant  // N |e| D/m: positive also where the line slides, so that Newton does not overshoot from far away
 };
 
 ContactForce contact_tangent(const SeabedLaw& law, const SurfacePoint<double>& bed, const Vec3& r, const Vec3& a, const Vec3& v, const Vec3* lay,
