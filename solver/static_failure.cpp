@@ -97,6 +97,13 @@ std::optional<Failure> refuse(const Model& model) {
   return std::nullopt;
 }
 
+std::optional<Knot> certify(const Model& model, const State& state, StaticReport& report) {
+  report.negative_pivots = unstable_directions(model, state);
+  const std::optional<Knot> knot = find_knot(model, state);
+  report.stable = report.negative_pivots == 0 && !knot;
+  return knot;
+}
+
 Failure knotted(const Model& model, const Knot& knot) {
   Failure failure;
   failure.what =

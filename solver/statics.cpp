@@ -223,7 +223,7 @@ class StaticSolver {
     const NewtonReport result = creep(system, motion);
     record(system, result);
     report_.converged = result.converged() && enough <= 1.0;
-    if (report_.converged) certify(model_);
+    if (report_.converged) certify(model_, state_, report_);
     report(fmt::format("{}: {} after {} factorizations, residual {:.2g} N", name, result.converged() ? "at rest" : "in motion", result.factorizations,
                        result.residual));
     if (report_.converged && !report_.stable) remember(name, explain_failure(model_, state_, system, result, report_));
@@ -305,7 +305,7 @@ class StaticSolver {
     newton_options.inexact_matrix = !linear_->takes_unsymmetric() && !has_potential(model_);
     const NewtonReport result = attempt.guarded ? guarded_newton(system, newton_options) : newton(system, newton_options);
     record(system, result);
-    if (result.converged()) certify(assembler.model());
+    if (result.converged()) certify(assembler.model(), state_, report_);
     if (attempt.on_the_way) return result.converged();
     const std::string outcome = result.converged() ? verdict() : "not converged";
     report(fmt::format("{}: {} after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, result.factorizations, report_.residual,
@@ -356,12 +356,6 @@ class StaticSolver {
     report_.roundoff_floor = system.roundoff();
     report_.residual = report_.reference_force > 0.0 ? result.residual / report_.reference_force : result.residual;
     report_.modified_newton = report_.modified_newton || system.modified();
-  }
-
-  /// Stable: no knot, and no compression that could buckle a line, or no negative pivot of the exact elastic tangent.
-  void certify(const Model& model) {
-    report_.negative_pivots = unstable_directions(model, state_);
-    report_.stable = report_.negative_pivots == 0 && !find_knot(model, state_);
   }
 
   const Assembler& assembler_;

@@ -256,7 +256,8 @@ StaticReport solve_static_kinsol(const Assembler& assembler, const StaticOptions
     state = std::move(start);
     const int before = problem.factorizations;
     int flag = 0;
-    report.converged = false;
+    report.converged = report.stable = false;
+    report.negative_pivots = 0;
     judge(problem, options, report);
     // The tolerance follows the reference force, which is known well only near the end.
     for (int round = 0; round < most_rounds && !report.converged; ++round) {
@@ -267,9 +268,7 @@ StaticReport solve_static_kinsol(const Assembler& assembler, const StaticOptions
       if (flag < 0) break;
     }
     report.iterations = problem.factorizations;
-    report.negative_pivots = report.converged ? unstable_directions(model, state) : 0;
-    const auto knot = report.converged ? find_knot(model, state) : std::nullopt;
-    report.stable = report.converged && report.negative_pivots == 0 && !knot;
+    const auto knot = report.converged ? certify(model, state, report) : std::nullopt;
     const char* outcome = report.stable ? "converged" : report.converged ? "converged, unstable or knotted" : "not converged";
     report.stages.push_back(fmt::format("KINSOL {}: {} ({}) after {} factorizations, residual {:.1e} of {:.4g} N", name, outcome, name_of_flag(flag),
                                         problem.factorizations - before, report.residual, report.reference_force));
