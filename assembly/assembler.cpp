@@ -187,14 +187,14 @@ struct Assembler::Impl {
   }
 
   /// What a panel left for the first node of the next one.
-  void add_carry(int p, double* r, double* next_D, double* rhs = nullptr) {
+  void add_carry(int p, double* r, double* D_next, double* rhs = nullptr) {
     const Chain& chain = model.chain(panels[p].line);
     const int b = chain.block;
     const std::size_t dof = chain.dof(first_node_of_panel(panels[p].panel + 1));
     const double* c = carry.data() + static_cast<std::size_t>(p) * carry_size;
     for (int i = 0; i < b; ++i) r[dof + i] += c[i];
-    if (next_D)
-      for (int i = 0; i < b * b; ++i) next_D[i] += c[b + i];
+    if (D_next)
+      for (int i = 0; i < b * b; ++i) D_next[i] += c[b + i];
     if (rhs)
       for (int i = 0; i < b; ++i) rhs[dof + i] -= c[i];
   }
@@ -330,10 +330,10 @@ void TangentPanels::add_beside(const Chain& chain, int panel, double* values) {
   for (std::size_t i = from; i < to; ++i) r_[i] += impl.beside[i];
 }
 
-void TangentPanels::add_carry(int chain_index, int panel, double* next_D) {
+void TangentPanels::add_carry(int chain_index, int panel, double* D_next) {
   Assembler::Impl& impl = *assembler_.impl_;
   const int p = impl.first_panel[chain_index] + panel;
-  impl.add_carry(p, r_.data(), next_D, rhs_.data());
+  impl.add_carry(p, r_.data(), D_next, rhs_.data());
 }
 
 const BlockTridiagonal& TangentPanels::whole() {

@@ -91,7 +91,7 @@ class Assembler {
 class TangentPanels final : public MatrixPanels {
  public:
   void make(int chain, int panel, double* values) override;
-  void add_carry(int chain, int panel, double* next_D) override;
+  void add_carry(int chain, int panel, double* D_next) override;
   const BlockTridiagonal& whole() override;
 
   /// Known to the caller (symmetry.hpp).

@@ -19,7 +19,7 @@ class MatrixPanels {
   virtual void make(int chain, int panel, double* values) = 0;
 
   /// Adds what a panel made contributes to the first node of the next one: to that node's D (given) and b. Once, after both were made.
-  virtual void add_carry(int chain, int panel, double* next_D) = 0;
+  virtual void add_carry(int chain, int panel, double* D_next) = 0;
 
   /// The whole matrix at once, and b anew.
   virtual const BlockTridiagonal& whole() = 0;

@@ -13,7 +13,7 @@ namespace hawser {
 namespace {
 
 constexpr int max_iterations = 60;                  // with one elasticity
-constexpr double first_EA = 10.0, EA_ratio = 10.0;  // of the loads; from one elasticity to the next
+constexpr double EA_first = 10.0, EA_ratio = 10.0;  // of the loads; from one elasticity to the next
 constexpr double rough_balance = 1e-2;              // of the largest load at a hub: with softened lines
 constexpr double wanted_balance = 1e-9;             // in still water
 constexpr double balance_in_flow = 1e-3;            // the drag of a first guess is not known better
@@ -83,7 +83,7 @@ class Balance {
   /// Soft lines first, then stiffer and stiffer ones: a step that swings a hub on a stiff line would be short.
   std::vector<Vec3> run() {
     const double stiffest = *std::max_element(EA_.begin(), EA_.end());
-    for (double EA = first_EA * all_loads_; EA < stiffest && EA > 0.0; EA *= EA_ratio) {
+    for (double EA = EA_first * all_loads_; EA < stiffest && EA > 0.0; EA *= EA_ratio) {
       for (std::size_t e = 0; e < EA_.size(); ++e) model_.element.EA[e] = std::min(EA_[e], EA);
       balance(rough_balance);
     }

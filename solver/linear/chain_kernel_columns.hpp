@@ -233,7 +233,13 @@ struct PairOfSix {
     if constexpr (From >= 4) p.set_all(0.0), q.set_all(0.0);
     first = p.v, second = q.v;
   }
-  static HAWSER_INLINE Doubles lanes(Doubles v, long long i, long long j, long long k, long long l) { return __builtin_shuffle(v, Rows{i, j, k, l}); }
+  static HAWSER_INLINE Doubles lanes(Doubles v, long long i, long long j, long long k, long long l) {
+#ifdef __clang__  // which has no such shuffle
+    return Doubles{v[i], v[j], v[k], v[l]};
+#else
+    return __builtin_shuffle(v, Rows{i, j, k, l});
+#endif
+  }
 
   // Lanes whose bit is set from b, the others from a. The integer form of the instruction: the other one takes the place of a product.
   template <int Bits>

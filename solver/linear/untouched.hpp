@@ -9,8 +9,8 @@ namespace hawser {
 template <class T>
 struct UntouchedAllocator : CacheLineAllocator<T> {
   template <class U>
-  struct rebind {  // NOLINT(readability-identifier-naming): the library wants this spelling
-    using other = UntouchedAllocator<U>;
+  struct rebind {                         // NOLINT(readability-identifier-naming): the library wants this spelling
+    using other = UntouchedAllocator<U>;  // NOLINT(readability-identifier-naming)
   };
   template <class U>
   void construct(U* p) {

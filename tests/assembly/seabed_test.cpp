@@ -183,8 +183,7 @@ struct Setup {
   SeabedLaw law;
 };
 
-class SeabedUnder : public ::testing::TestWithParam<Setup> {
- protected:
+struct SeabedUnder : ::testing::TestWithParam<Setup> {
   /// A line of four elements from the bed at x = 0 up to x = 16 m, and a state that waves through the bed.
   SeabedUnder() {
     SceneBuilder builder;

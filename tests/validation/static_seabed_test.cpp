@@ -181,8 +181,7 @@ struct JlayTest {
   double largest;  // bound on the tolerance, relative
 };
 
-class Jlay : public ::testing::TestWithParam<JlayTest> {
- protected:
+struct Jlay : ::testing::TestWithParam<JlayTest> {
   Jlay() : c(GetParam().name) {}
 
   double parameter(const char* name) const { return c.parameter(name); }

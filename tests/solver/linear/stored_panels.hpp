@@ -24,8 +24,8 @@ class StoredPanels final : public MatrixPanels {
     std::copy_n(&b_[c.dof(first)], c.block * nodes, &out_[c.dof(first)]);
     if (panel > 0) out_[c.dof(first)] -= carried_;
   }
-  void add_carry(int chain, int panel, double* next_D) override {
-    next_D[0] += carried_;
+  void add_carry(int chain, int panel, double* D_next) override {
+    D_next[0] += carried_;
     const Chain& c = matrix_.chains()[chain];
     out_[c.dof(first_node_of_panel(panel + 1))] += carried_;
   }
