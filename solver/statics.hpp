@@ -61,8 +61,13 @@ State static_start(const Model& model, StaticStart start);
 /// The same, but lines with a shape table in the scene (LineSpec::start) start from it; solve them with StaticStart::given.
 State static_start(const Model& model, StaticStart start, const Scene& scene);
 
-/// Estimated relative error of each line's end tension from the mesh: the same scene on half the elements, difference
-/// divided by 2^p - 1 (p = 4; bar: 2). NaN where the coarse problem did not converge or the mesh cannot be halved.
-std::vector<double> estimate_static_error(const Scene& scene, const StaticOptions& options, const Model& model, const State& state);
+/// Estimated relative error of each line's end tension: from the mesh and from what the residual [N] (StaticReport) leaves open.
+///   d1 = |T(n) - T(n/2)|,  d2 = |T(n/2) - T(n/4)|,  c = d2/d1 between 2 and 2^p  (p = 4; bar: 2)
+///   error = ( max( d1/(c - 1), d2/(2^p (2^p - 1)) ) + residual ) / T
+/// c is the contraction seen: 2^p on a mesh fine enough, less where a touchdown or a sharp bend moves through coarse elements; 2 where
+/// n/4 was not solved. It is an estimate, no bound: with a touchdown, errors up to five times as large were seen. NaN where n/2 was not solved or the
+/// mesh cannot be halved.
+std::vector<double> estimate_static_error(const Scene& scene, const StaticOptions& options, const Model& model, const State& state,
+                                          double residual_force);
 
 }  // namespace hawser

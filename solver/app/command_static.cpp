@@ -95,7 +95,7 @@ StaticSolution solve_requested_static(const Request& request, const Scene& scene
   if (solution.report.converged) {
     options.log = {};
     if (options.start == StaticStart::given) options.start = StaticStart::catenary;  // the coarse mesh has no given state
-    solution.error_estimates = estimate_static_error(scene, options, model, solution.state);
+    solution.error_estimates = estimate_static_error(scene, options, model, solution.state, solution.report.residual_force);
     if (request.probe > 0) {
       solution.probe_options.starts = request.probe;
       solution.probe = probe_equilibria(assembler, options, solution.state, solution.report, solution.probe_options);

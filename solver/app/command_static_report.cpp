@@ -177,7 +177,7 @@ Json static_document(const Model& model, const StaticSolution& solution, int sta
 std::string static_text(const Scene& scene, const Model& model, const StaticSolution& solution) {
   const StaticReport& report = solution.report;
   std::vector<std::vector<std::string>> lines{
-      {"line", "model", "elements", "length", "tension from", "tension to", "least", "at s [m]", "greatest", "compressed", "mesh error"}};
+      {"line", "model", "elements", "length", "tension from", "tension to", "least", "at s [m]", "greatest", "compressed", "error"}};
   for (int i = 0; i < static_cast<int>(model.lines.size()); ++i) {
     const Line& line = model.lines[static_cast<std::size_t>(i)];
     const LineResult r = observe_line(model, solution.state, i);

@@ -273,22 +273,5 @@ TEST(Statics, GivenStateIsTheStart) {
   EXPECT_EQ(solve(model, state, StaticStart::given).iterations, 1);
 }
 
-TEST(Statics, ErrorEstimateIsTheErrorOfTheEndTensionWithinAFactorOfThree) {
-  const ReferenceCase reference("static_catenary_deep5000_sceneS1");
-  for (const ModelChoice choice : {ModelChoice::cable, ModelChoice::bar}) {
-    Scene scene = deep(20).scene;
-    scene.lines[0].model = choice;
-    const StaticSolution s(scene);
-    const double T = reference.value("T_end_sL0"), T0 = reference.value("T_end_s0");
-    const double error = std::max(std::abs(s.line.tension_to - T), std::abs(s.line.tension_from - T0)) / T;
-    const std::vector<double> estimate = estimate_static_error(scene, {}, *s.model, s.state);
-    ASSERT_EQ(estimate.size(), 1u);
-    EXPECT_LT(estimate[0], 3.0 * error);
-    EXPECT_GT(estimate[0], error / 3.0);
-  }
-  const StaticSolution one(deep(1).scene);
-  EXPECT_TRUE(std::isnan(estimate_static_error(deep(1).scene, {}, *one.model, one.state)[0]));
-}
-
 }  // namespace
 }  // namespace hawser::test
