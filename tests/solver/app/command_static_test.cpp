@@ -45,8 +45,7 @@ TEST_F(CliStatic, TheCertificateSaysWhereTheTensionIsLeastAndHowMuchOfALineIsCom
   EXPECT_EQ(line.at("compressed_length"), 0.0);
   EXPECT_LT(line.at("error_estimate").get<double>(), 1e-3);
   const std::string text = hawser("static scene.toml -q").out;
-  for (const char* word : {"stable equilibrium", "least  at s [m]", "compressed", "error"})
-    EXPECT_NE(text.find(word), std::string::npos) << word;
+  for (const char* word : {"stable equilibrium", "least  at s [m]", "compressed", "error"}) EXPECT_NE(text.find(word), std::string::npos) << word;
 }
 
 TEST_F(CliStatic, AStableStateHasNoMode) {
